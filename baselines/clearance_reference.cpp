@@ -63,7 +63,7 @@ Clearance ClearanceReference::query(const Agents& agents, Pair pair, double max_
         nearest.take(i, j, step(place, a.discs[i], b.discs[j]));
   } else {
     // Twice what discs below may have a smaller gap than the one above, by rounding.
-    const float slack = 0x1p-18f * (a.reach + b.reach);
+    const float slack = 0x1p-18f * (a.max_extent + b.max_extent);
     const float most = detail::rounding::round_up(std::min(max_distance, 1e30));
     search(
         place, a.nodes.data(), b.nodes.data(), open_,
@@ -94,7 +94,7 @@ bool ClearanceReference::within(const Agents& agents, Pair pair, double distance
   }
   // What bounds say by being 0: that they may be near. One hit ends the search.
   bool found = false;
-  const float bound_gap = gap + 0x1p-17f * (a.reach + b.reach + gap);
+  const float bound_gap = gap + 0x1p-17f * (a.max_extent + b.max_extent + gap);
   search(
       place, a.nodes.data(), b.nodes.data(), open_,
       [&](const Step& at) { return is_near(at, bound_gap) ? 0.0f : 1.0f; },

@@ -35,7 +35,7 @@ bool any_hit(const FloatPlacement& place, const CutList& a, const CutList& b) {
 CutLists::CutLists(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     : level_count_(plan.depths.size()) {
   for (const Shape& shape : shapes) {
-    reach_.push_back(detail::rounding::round_up(shape.hierarchy.reach));
+    max_extent_.push_back(detail::rounding::round_up(shape.hierarchy.max_extent));
     for (const std::uint32_t depth : plan.depths) lists_.push_back(list_of(shape.hierarchy, depth));
   }
 }
@@ -48,9 +48,9 @@ std::span<const Disc> CutLists::of(const Agents& agents, std::uint32_t agent) co
   return list(agents, agent).discs;
 }
 
-float CutLists::reach(const Agents& agents, std::uint32_t agent) const {
+float CutLists::max_extent(const Agents& agents, std::uint32_t agent) const {
   const std::span<const Disc> discs = of(agents, agent);
-  if (discs.size() > 1) return reach_[agents.shape[agent]];
+  if (discs.size() > 1) return max_extent_[agents.shape[agent]];
   return std::abs(discs[0].x) + std::abs(discs[0].y) + discs[0].radius;
 }
 

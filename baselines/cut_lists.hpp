@@ -40,13 +40,13 @@ class CutLists {
   const CutList& list(const Agents& agents, std::uint32_t agent) const;
   /// Returns the discs of that list.
   std::span<const Disc> of(const Agents& agents, std::uint32_t agent) const;
-  /// Returns the agent's reach in metres, not below the reach that layout/base/rounding.hpp defines.
-  float reach(const Agents& agents, std::uint32_t agent) const;
+  /// Returns the agent's extent in metres, not below the one that layout/base/rounding.hpp defines.
+  float max_extent(const Agents& agents, std::uint32_t agent) const;
 
  private:
   std::size_t level_count_;
-  std::vector<CutList> lists_;  ///< shape * level_count_ + level
-  std::vector<float> reach_;    ///< per shape, rounded up
+  std::vector<CutList> lists_;     ///< shape * level_count_ + level
+  std::vector<float> max_extent_;  ///< per shape, rounded up
 };
 
 /// Returns the answer of any_hit() for the cuts of a pair of agents, whatever their order.

@@ -34,7 +34,7 @@ CutTrees::CutTrees(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     const std::vector<float> bounds = detail::bounding_radii(shape.hierarchy);
     for (const std::uint32_t depth : plan.depths) {
       Tree& tree = trees_.emplace_back();
-      tree.reach = detail::rounding::round_up(shape.hierarchy.reach);
+      tree.max_extent = detail::rounding::round_up(shape.hierarchy.max_extent);
       add(shape.hierarchy, bounds, 0, depth, tree);
     }
   }

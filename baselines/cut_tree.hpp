@@ -32,7 +32,7 @@ class CutTrees {
   struct Tree {
     std::vector<Node> nodes;
     std::vector<Disc> discs;  ///< of the cut, in its order
-    float reach;
+    float max_extent;
   };
 
   CutTrees(std::span<const Shape> shapes, const ShapeSetPlan& plan);

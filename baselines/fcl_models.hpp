@@ -36,7 +36,7 @@ std::shared_ptr<fcl::BVHModel<Volume>> fcl_mesh(const std::vector<fcl::Vector3d>
                                                 const std::vector<fcl::Triangle>& triangles) {
   if (triangles.empty()) throw std::invalid_argument("no triangles");
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (!(vertices[i].norm() <= detail::rounding::largest_reach))
+    if (!(vertices[i].norm() <= detail::rounding::largest_extent))
       throw std::invalid_argument("vertex " + std::to_string(i) + ": (" + std::to_string(vertices[i].x()) +
                                   ", " + std::to_string(vertices[i].y()) + ", " +
                                   std::to_string(vertices[i].z()) + ")");

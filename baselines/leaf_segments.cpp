@@ -71,7 +71,7 @@ std::vector<std::array<Point2, 2>> LeafSegments::segments_of(const Shape& shape,
 
 double LeafSegments::margin_of(const Shape& shape) {
   return static_cast<double>(detail::rounding::round_up(
-      detail::rounding::segment_margin * shape.hierarchy.reach +
+      detail::rounding::segment_margin * shape.hierarchy.max_extent +
       detail::rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step)));
 }
 

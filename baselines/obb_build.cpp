@@ -134,20 +134,21 @@ std::size_t divide(std::span<Item> items, const ObbNode& box, const Eigen::Vecto
   return items.size() / 2;
 }
 
-double checked_reach(std::span<const Facet> facets) {
+double checked_extent(std::span<const Facet> facets) {
   if (facets.empty()) throw std::invalid_argument("box tree: no facets");
   if (facets.size() > max_facets)
     throw std::length_error("box tree: " + std::to_string(facets.size()) + " facets, more than 2^22");
-  double reach = 0;
+  double max_extent = 0;
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (const Eigen::Vector3f& p : facets[i]) {
       if (!p.allFinite())
         throw std::invalid_argument("box tree: facet " + std::to_string(i) + " is not finite");
-      reach = std::max(reach, p.cast<double>().norm());
+      max_extent = std::max(max_extent, p.cast<double>().norm());
     }
-  if (reach < detail::rounding::smallest_reach || reach > detail::rounding::largest_reach)
-    throw std::invalid_argument("box tree: reach " + detail::shortest(reach) + " m is outside 1e-6 to 1e6 m");
-  return reach;
+  if (max_extent < detail::rounding::smallest_extent || max_extent > detail::rounding::largest_extent)
+    throw std::invalid_argument("box tree: extent " + detail::shortest(max_extent) +
+                                " m is outside 1e-6 to 1e6 m");
+  return max_extent;
 }
 
 /// A node still to be made: a range of items, and the node whose second child it is, if it is one.
@@ -160,7 +161,7 @@ struct Open {
 }  // namespace
 
 ObbTree build_obb_tree(std::vector<Facet> facets) {
-  const double margin = box_margin * checked_reach(facets);
+  const double margin = box_margin * checked_extent(facets);
   std::vector<Item> all;
   all.reserve(facets.size());
   for (const Facet& facet : facets) all.push_back(make_item(facet));

@@ -14,7 +14,7 @@
 /// and means nothing; `parallel` is added to the absolute values of the rotation, so that such an axis never
 /// separates (C. Ericson, "Real-time collision detection", 2005, section 4.4.1).
 ///
-/// Why a test in float never misses. u = 2^-24, P the reaches, S = P_A + P_B, and p a point of both shapes
+/// Why a test in float never misses. u = 2^-24, P the extents, S = P_A + P_B, and p a point of both shapes
 /// for the exact tests, so that the relative position t has |t| <= S. Let boxes be tight except for the margin.
 ///
 ///     stored axes against an orthonormal frame          u each, so a tight box grows by 2 u P

@@ -22,7 +22,7 @@ using Facet = std::array<Eigen::Vector3f, 3>;
 ///
 /// The box holds the points p with |axis[k] . (p - centre)| <= half[k], for the stored axes, whose rounding
 /// leaves them orthonormal up to 2^-24. `half` is larger than what its facets need by box_margin of the
-/// shape's reach, so that the float test in obb_overlap.hpp never misses.
+/// shape's extent, so that the float test in obb_overlap.hpp never misses.
 struct ObbNode {
   static constexpr std::uint32_t leaf_bit = 0x80000000;
 
@@ -54,7 +54,7 @@ struct ObbTree {
 };
 
 /// Builds a tree over facets. Errors: throws std::invalid_argument on no facets, a coordinate that is not
-/// finite, a reach (distance from the origin, in space) outside the limits of rounding.hpp; std::length_error
+/// finite, an extent (distance from the origin, in space) outside the limits of rounding.hpp; std::length_error
 /// beyond 2^22 facets.
 ObbTree build_obb_tree(std::vector<Facet> facets);
 
@@ -67,7 +67,7 @@ std::vector<Facet> projected_facets(std::span<const Vec3> positions,
 /// Returns the segments of an outline. Errors: throws std::invalid_argument on an outline that validate() rejects.
 std::vector<Facet> contour_facets(const Outline& outline);
 
-/// The margin of half-extents, times the shape's reach; derived in obb_overlap.hpp.
+/// The margin of half-extents, times the shape's extent; derived in obb_overlap.hpp.
 constexpr double box_margin = 0x1p-17;
 
 }  // namespace bch::baselines

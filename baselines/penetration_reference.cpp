@@ -38,10 +38,10 @@ double depth_along(const CutLists& cuts, const Agents& agents, std::uint32_t mov
 
 PenetrationDepth with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double least,
                             Vector along) {
-  const double reach = static_cast<double>(cuts.reach(agents, std::min(pair.first, pair.second))) +
-                       static_cast<double>(cuts.reach(agents, std::max(pair.first, pair.second)));
+  const double max_extent = static_cast<double>(cuts.max_extent(agents, std::min(pair.first, pair.second))) +
+                            static_cast<double>(cuts.max_extent(agents, std::max(pair.first, pair.second)));
   const double depth =
-      (least + 40 * detail::rounding::unit_roundoff * reach) * (1 + 4 * detail::rounding::unit_roundoff);
+      (least + 40 * detail::rounding::unit_roundoff * max_extent) * (1 + 4 * detail::rounding::unit_roundoff);
   return {depth > 0 ? detail::rounding::round_up(depth) : 0.0f, along.x, along.y};
 }
 

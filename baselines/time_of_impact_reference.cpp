@@ -68,7 +68,7 @@ float TimeOfImpactReference::query(const Agents& agents, Pair pair, double x, do
       for (const Disc& q : b.discs) soonest = std::min(soonest, contact(step(place, p, q), motion));
     return soonest;
   }
-  const float slack = 0x1p-17f * (a.reach + b.reach);
+  const float slack = 0x1p-17f * (a.max_extent + b.max_extent);
   const auto most = [&] { return std::min(soonest, 1.0f); };
   search(
       place, a.nodes.data(), b.nodes.data(), open_,

@@ -257,7 +257,7 @@ CrowdPicture picture_of(std::span<const Shape> shapes, const Crowd& crowd, const
     return body;
   };
   CrowdPicture picture{crowd, density};
-  for (const Shape& shape : shapes) picture.reach = std::max(picture.reach, shape.hierarchy.reach);
+  for (const Shape& shape : shapes) picture.reach = std::max(picture.reach, shape.hierarchy.max_extent);
   picture.body = [=, &crowd](std::uint32_t agent) {
     return body_of(shapes[crowd.shape[agent]], drawn.depth);
   };

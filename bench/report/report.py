@@ -45,7 +45,7 @@ PAPER_VOLUMES = {"default:female": WOMAN, "default:male": MAN, "default:bulky": 
 ERRORS = {"distance": "mean (cm)", "false": "false positives (%)"}  # of experiment error_time
 MESHES = "OBB full mesh"  # of experiment bodies
 SAME_PLACE = 2e-6  # m: places of slides are bisected to a micrometre
-PROMISED_GAP = 4  # um per metre of reach, see layout/base/rounding.hpp
+PROMISED_GAP = 4  # um per metre of extent, see layout/base/rounding.hpp
 
 
 # Tables.
@@ -346,8 +346,8 @@ def stability(data, out):
             "of them meeting": row["meeting"],
             **{f"{name}: missed (%)": Share(row[f"{name}: misses"], row["meeting"]) for name in names},
             **{f"{name}: false hits (%)": Share(row[f"{name}: false hits"], apart) for name in names},
-            **{f"{name}: largest error (um/m)": 1e6 * max(row[f"{name}: deepest miss (m/m of reach)"],
-                                                          row[f"{name}: largest gap (m/m of reach)"]) for name in names},
+            **{f"{name}: largest error (um/m)": 1e6 * max(row[f"{name}: deepest miss (m/m of extent)"],
+                                                          row[f"{name}: largest gap (m/m of extent)"]) for name in names},
             "outlines that meet": row["outlines meeting"], "outlines missed by bch": row["outline misses"]})
     out["stability_refused"] = Table({"case": f"{row['title']}: {row['value']}", "exception": row["refused"]}
                                      for row in data["stability"] if isinstance(row["refused"], str))
@@ -603,7 +603,7 @@ def draw_stability(data, out):
     families = [rows for rows in out["stability"].groups("family").values() if not is_nan(rows[0]["axis"])]
     figure, axes = plt.subplots(len(families), 3, figsize=(13, 2.9 * len(families)), layout="constrained", sharey="col")
     titles = {"missed (%)": "contacts missed, % of those that meet", "false hits (%)": "false hits, % of those that do not meet",
-              "largest error (um/m)": "largest error, um per metre of reach"}
+              "largest error (um/m)": "largest error, um per metre of extent"}
     for rows, panels in zip(families, axes):
         places = rows.column("conditioning")
         for ax, (what, title) in zip(panels, titles.items()):

@@ -43,12 +43,12 @@ SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::
   detail::Random random(seed);
   const auto count = static_cast<std::uint32_t>(shapes.size());
   for (std::uint32_t i = 0; i < cases; ++i) {
-    double reach = 0;
+    double max_extent = 0;
     for (int agent = 0; agent < 2; ++agent) {
       crowd_.shape.push_back(random.below(count));
-      reach += shapes[crowd_.shape.back()].hierarchy.reach;
+      max_extent += shapes[crowd_.shape.back()].hierarchy.max_extent;
     }
-    from_.push_back(-1.5 * reach - 0.1);
+    from_.push_back(-1.5 * max_extent - 0.1);
     crowd_.x.insert(crowd_.x.end(), {from_.back(), 0});
   }
   crowd_.y.resize(2 * cases, 0), crowd_.heading.resize(2 * cases);

@@ -29,7 +29,7 @@ Table table_of(std::span<const StabilityRow> rows) {
   std::vector<Cell> columns = {"family", "title", "axis", "value", "conditioning", "pairs", "meeting"};
   for (const Test& test : tests)
     for (const char* column : {"misses", "false hits", "deepest miss (m)", "largest gap (m)",
-                               "deepest miss (m/m of reach)", "largest gap (m/m of reach)"})
+                               "deepest miss (m/m of extent)", "largest gap (m/m of extent)"})
       columns.push_back(fmt::format("{}: {}", test.key, column));
   columns.insert(columns.end(), {"outlines", "outlines meeting", "outline misses", "refused"});
   Table table(columns);
@@ -41,8 +41,8 @@ Table table_of(std::span<const StabilityRow> rows) {
                                row.meeting};
     for (const Test& test : tests) {
       const Errors& e = row.*test.errors;
-      cells.insert(cells.end(), {e.misses, e.false_positives, e.deepest_miss, e.largest_gap, e.miss_per_reach,
-                                 e.gap_per_reach});
+      cells.insert(cells.end(), {e.misses, e.false_positives, e.deepest_miss, e.largest_gap,
+                                 e.miss_per_extent, e.gap_per_extent});
     }
     cells.insert(cells.end(), {row.outlines, row.outlines_meeting, row.outline_misses, row.refused});
     table.add(cells);

@@ -37,8 +37,8 @@ Setups varied(std::initializer_list<double> values, Change change) {
   return setups;
 }
 
-auto of_reach(double reach) {
-  return [reach](Random& random) { return usual_specimens(random, reach); };
+auto of_extent(double max_extent) {
+  return [max_extent](Random& random) { return usual_specimens(random, max_extent); };
 }
 
 Setups offset_setups() {
@@ -52,16 +52,16 @@ Setups offset_setups() {
 Setups scale_setups() {
   return varied(
       {9e-7, 1.001e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 0.999e6, 1.1e6},
-      [](StabilitySetup& setup, double reach) {
-        setup.make = of_reach(reach);
-        setup.outside = reach < 1e-6 || reach > 1e6;
+      [](StabilitySetup& setup, double max_extent) {
+        setup.make = of_extent(max_extent);
+        setup.outside = max_extent < 1e-6 || max_extent > 1e6;
       });
 }
 
 Setups ratio_setups() {
   return varied({1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9}, [](StabilitySetup& setup, double ratio) {
-    setup.make = of_reach(1e5);
-    setup.make_other = of_reach(1e5 / ratio);
+    setup.make = of_extent(1e5);
+    setup.make_other = of_extent(1e5 / ratio);
   });
 }
 
@@ -178,8 +178,8 @@ Setups extreme_setups() {
   add("coordinates of 1e-45 m in a shape").make = flat(1e-45);
   StabilitySetup& far = add("2e9 m apart");
   far.x = far.y = -1e9, far.apart_x = far.apart_y = 2e9, far.placing = Placing::apart;
-  StabilitySetup& large = add("2e9 m apart, a reach of 1e6 m");
-  large = far, large.value = "2e9 m apart, a reach of 1e6 m", large.make = of_reach(0.999e6);
+  StabilitySetup& large = add("2e9 m apart, an extent of 1e6 m");
+  large = far, large.value = "2e9 m apart, an extent of 1e6 m", large.make = of_extent(0.999e6);
   const auto refuse = [&](const char* value) -> StabilitySetup& {
     StabilitySetup& setup = add(value);
     setup.outside = true;
@@ -201,8 +201,8 @@ Setups extreme_setups() {
 
 constexpr StabilityFamily families[] = {
     {"offset", "Far from the origin", "distance of the agents from the origin, metres", offset_setups},
-    {"scale", "Small and large shapes", "reach of the shapes, metres", scale_setups},
-    {"ratio", "A large and a small shape", "ratio of their reaches", ratio_setups},
+    {"scale", "Small and large shapes", "extent of the shapes, metres", scale_setups},
+    {"ratio", "A large and a small shape", "ratio of their extents", ratio_setups},
     {"ladder_float", "A ladder of gaps, float", "gap, units in the last place of a float",
      ladder_setups<float_step>},
     {"ladder_double", "A ladder of gaps, double", "gap, units in the last place of a double",
@@ -239,8 +239,8 @@ std::string broken_promise(const StabilityRow& row) {
   if (!row.refused.empty()) return where + row.refused;
   if (row.ours.misses > 0) return where + fmt::format("{} misses", row.ours.misses);
   if (row.outline_misses > 0) return where + fmt::format("{} missed outlines", row.outline_misses);
-  if (row.ours.gap_per_reach > promised_gap)
-    return where + fmt::format("a gap of {} m per metre of reach is a hit", row.ours.gap_per_reach);
+  if (row.ours.gap_per_extent > promised_gap)
+    return where + fmt::format("a gap of {} m per metre of extent is a hit", row.ours.gap_per_extent);
   return "";
 }
 

@@ -41,10 +41,10 @@ struct Batch {
 };
 
 /// Half of them a few units in the last place of a float, half of all magnitudes, either way.
-double any_gap(Random& random, double radii, double reaches) {
+double any_gap(Random& random, double radii, double max_extents) {
   if (random.below(2) == 0) return (static_cast<double>(random.below(129)) - 64) * float_step(radii);
   const double size = std::pow(10.0, -16 + random.uniform(15.5));
-  return (random.below(2) == 0 ? size : -size) * reaches;
+  return (random.below(2) == 0 ? size : -size) * max_extents;
 }
 
 /// The specimens that both agents come from, in one row of shapes.
@@ -92,8 +92,8 @@ class Runner {
   double heading() {
     return setup_.heading ? setup_.heading(random_) : random_.uniform(2 * std::numbers::pi);
   }
-  double gap(double radii, double reaches) {
-    return setup_.gap ? setup_.gap(random_, radii, reaches) : any_gap(random_, radii, reaches);
+  double gap(double radii, double max_extents) {
+    return setup_.gap ? setup_.gap(random_, radii, max_extents) : any_gap(random_, radii, max_extents);
   }
 
   /// Nothing is asked about what is true there.
@@ -118,11 +118,11 @@ class Runner {
       trial.b.x += (static_cast<double>(random_.below(3)) - 1) * double_step(setup_.x);
       trial.b.y += (static_cast<double>(random_.below(3)) - 1) * double_step(setup_.y);
     } else if (setup_.placing == Placing::stacked) {
-      trial.put_on_top(gap(trial.reaches() / 4, trial.reaches()));
+      trial.put_on_top(gap(trial.max_extents() / 4, trial.max_extents()));
     } else if (setup_.placing == Placing::contact && outlines) {
-      trial.store_outlines_in_contact(x, y, gap(trial.reaches() / 4, trial.reaches()));
+      trial.store_outlines_in_contact(x, y, gap(trial.max_extents() / 4, trial.max_extents()));
     } else if (setup_.placing == Placing::contact) {
-      trial.store_discs_in_contact(x, y, [&](double radii) { return gap(radii, trial.reaches()); });
+      trial.store_discs_in_contact(x, y, [&](double radii) { return gap(radii, trial.max_extents()); });
     }
   }
 
@@ -139,12 +139,12 @@ class Runner {
 
   /// What is kept of a trial.
   struct Truth {
-    double gap, reaches;
+    double gap, max_extents;
     bool outlines_meet, plain_float, plain_double;
   };
   static Truth judge(const Trial& trial, bool outlines) {
     if (outlines) return {0, 0, trial.outlines_meet(), false, false};
-    return {trial.gap(), trial.reaches(), false, trial.plain_float_hit(), trial.plain_double_hit()};
+    return {trial.gap(), trial.max_extents(), false, trial.plain_float_hit(), trial.plain_double_hit()};
   }
 
   void count_outlines(std::uint32_t i, bool hit) {
@@ -166,11 +166,11 @@ class Runner {
     if (truth.gap <= 0 && !hit) {
       ++errors.misses;
       errors.deepest_miss = std::max(errors.deepest_miss, -truth.gap);
-      errors.miss_per_reach = std::max(errors.miss_per_reach, -truth.gap / truth.reaches);
+      errors.miss_per_extent = std::max(errors.miss_per_extent, -truth.gap / truth.max_extents);
     } else if (truth.gap > 0 && hit) {
       ++errors.false_positives;
       errors.largest_gap = std::max(errors.largest_gap, truth.gap);
-      errors.gap_per_reach = std::max(errors.gap_per_reach, truth.gap / truth.reaches);
+      errors.gap_per_extent = std::max(errors.gap_per_extent, truth.gap / truth.max_extents);
     }
   }
 

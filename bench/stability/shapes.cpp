@@ -108,12 +108,12 @@ std::vector<Vec2> ring(Random& random, std::uint32_t corners, double inner, doub
   return points;
 }
 
-std::vector<Specimen> usual_specimens(Random& random, double reach) {
+std::vector<Specimen> usual_specimens(Random& random, double max_extent) {
   std::vector<Specimen> specimens;
   const auto add = [&](std::vector<Vec2> points, double threshold) {
-    const double factor = reach / detail::reach(points);
+    const double factor = max_extent / detail::max_extent(points);
     for (Vec2& p : points) p = point(factor * static_cast<double>(p.x), factor * static_cast<double>(p.y));
-    specimens.push_back(contour_specimen(std::move(points), threshold * reach));
+    specimens.push_back(contour_specimen(std::move(points), threshold * max_extent));
   };
   for (int i = 0; i < 4; ++i) {
     const double x = random.between(-1, 1), y = random.between(-1, 1);

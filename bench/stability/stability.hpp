@@ -25,8 +25,8 @@ struct Errors {
   // Metres, of Trial::gap():
   double deepest_miss = 0;  ///< below 0, the most that was missed
   double largest_gap = 0;   ///< the largest that was answered as a hit
-  // The largest by the two shapes' reach:
-  double miss_per_reach = 0, gap_per_reach = 0;
+  // The largest by the two shapes' extent:
+  double miss_per_extent = 0, gap_per_extent = 0;
 };
 
 /// Holds the results for one value of what a family varies.
@@ -60,7 +60,7 @@ std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed
 /// the domain, none inside. Empty: nothing.
 std::string broken_promise(const StabilityRow& row);
 
-/// The documented gap in metres per metre of reach, see layout/base/rounding.hpp.
+/// The documented gap in metres per metre of extent, see layout/base/rounding.hpp.
 constexpr double promised_gap = 4e-6;
 
 /// Holds how the depths of one law and cut behave as the springs of penalty forces.

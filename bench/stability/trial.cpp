@@ -130,7 +130,7 @@ Quad largest_gap(const ExactCut& a, std::uint32_t disc_a, const ExactCut& b, std
 }
 
 /// Returns Trial::gap() of two cuts.
-Quad gap_of_discs(const ExactCut& a, const ExactCut& b, QuadVector at, double reaches) {
+Quad gap_of_discs(const ExactCut& a, const ExactCut& b, QuadVector at, double max_extents) {
   const double x = static_cast<double>(at.x), y = static_cast<double>(at.y);
   const auto discs_a = in_double(a), discs_b = in_double(b);
   const auto rough = [&](std::size_t i, std::size_t j) {
@@ -141,7 +141,7 @@ Quad gap_of_discs(const ExactCut& a, const ExactCut& b, QuadVector at, double re
   const PairsWithAbove<double> gaps(a, b, rough, larger);
   const double least = gaps.least(std::less<>());
   // What double may have mistaken for it is asked again.
-  const double doubt = 1e-14 * (reaches + std::abs(x) + std::abs(y));
+  const double doubt = 1e-14 * (max_extents + std::abs(x) + std::abs(y));
   if (std::abs(least) > 1000 * doubt) return least;
   Quad exact = 1e300;
   for (const std::uint32_t i : a.cut)
@@ -260,7 +260,7 @@ void Trial::store_discs_in_contact(double x, double y, const std::function<doubl
 }
 
 void Trial::store_outlines_in_contact(double x, double y, double gap) {
-  const double far = 1.01 * reaches();
+  const double far = 1.01 * max_extents();
   PlacedSpecimen away = b;
   away.x = a.x + far * x, away.y = a.y + far * y;
   // In a's frame it is a that moves.
@@ -280,7 +280,7 @@ void Trial::put_on_top(double gap) {
 
 double Trial::gap() const {
   return static_cast<double>(
-      std::max(gap_of_discs(cut_a_, cut_b_, shift(a, b), reaches()), gap_of_heights(a, b)));
+      std::max(gap_of_discs(cut_a_, cut_b_, shift(a, b), max_extents()), gap_of_heights(a, b)));
 }
 
 bool Trial::outlines_meet() const {

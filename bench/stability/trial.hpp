@@ -21,7 +21,7 @@ struct Specimen {
   baselines::ExactCut discs;  ///< of its leaves and all nodes above
   Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
 
-  double reach() const { return shape.hierarchy.reach; }
+  double max_extent() const { return shape.hierarchy.max_extent; }
 };
 
 /// The functions below make specimens.
@@ -43,8 +43,8 @@ std::vector<Vec2> ring(detail::Random& random, std::uint32_t corners, double inn
 std::vector<Specimen> prism_specimens(detail::Random& random);
 
 /// Returns outlines of few and many corners about their origin and beside it, and strokes, each of this
-/// reach.
-std::vector<Specimen> usual_specimens(detail::Random& random, double reach);
+/// extent.
+std::vector<Specimen> usual_specimens(detail::Random& random, double max_extent);
 
 enum class Soup { collinear, duplicate, folded, needle };
 std::vector<Specimen> soup_specimens(detail::Random& random, Soup kind);
@@ -81,7 +81,7 @@ class Trial {
   bool plain_float_hit() const;
   bool plain_double_hit() const;
 
-  double reaches() const { return a.specimen->reach() + b.specimen->reach(); }
+  double max_extents() const { return a.specimen->max_extent() + b.specimen->max_extent(); }
 
  private:
   baselines::ExactCut cut_a_, cut_b_;  ///< in the world's axes about their agents
@@ -110,8 +110,8 @@ struct StabilitySetup {
   double x = 0, y = 0, z = 0;       ///< of the first agent
   double apart_x = 0, apart_y = 0;  ///< the second agent's position from there, where they are apart
   std::function<double(detail::Random&)> heading = nullptr;  ///< null: all directions
-  /// Draws a gap from the sum of two radii and the sum of the reaches; null: gaps of all sizes.
-  std::function<double(detail::Random&, double radii, double reaches)> gap = nullptr;
+  /// Draws a gap from the sum of two radii and the sum of the extents; null: gaps of all sizes.
+  std::function<double(detail::Random&, double radii, double max_extents)> gap = nullptr;
 };
 
 /// Returns the distance from a value to the next float or double.

@@ -51,7 +51,7 @@ void BuildStages::levels(std::size_t pose) {
 }
 
 void BuildStages::interior(std::size_t pose) {
-  search_inside(outlines_[pose], hierarchies_[pose].reach);
+  search_inside(outlines_[pose], hierarchies_[pose].max_extent);
 }
 
 void BuildStages::pose(std::size_t pose) {
@@ -61,7 +61,7 @@ void BuildStages::pose(std::size_t pose) {
 
 void BuildStages::all(std::size_t pose) {
   make_hierarchy(pose);
-  search_inside(outline_, hierarchy_.reach);
+  search_inside(outline_, hierarchy_.max_extent);
   flatten(hierarchy_, true);
 }
 
@@ -70,9 +70,9 @@ void BuildStages::make_hierarchy(std::size_t pose) {
   hierarchy_builder_.contour(outline_, threshold, detail::SplitRule::centroid, hierarchy_);
 }
 
-void BuildStages::search_inside(const Outline& outline, double reach) {
-  interior_ = interior_builder_.build(outline, reach);
-  profile_ = profile(outline, interior_, reach);
+void BuildStages::search_inside(const Outline& outline, double max_extent) {
+  interior_ = interior_builder_.build(outline, max_extent);
+  profile_ = profile(outline, interior_, max_extent);
   use(profile_);
 }
 

@@ -47,7 +47,7 @@ class BuildStages {
   void all(std::size_t pose);
 
  private:
-  void search_inside(const Outline& outline, double reach);
+  void search_inside(const Outline& outline, double max_extent);
   void make_hierarchy(std::size_t pose);
   void flatten(const Hierarchy& hierarchy, bool culling);
 

@@ -135,9 +135,10 @@ void MotionScene::check(std::uint32_t pairs) const {
     const auto require = [&](bool right, const char* what, double time) {
       if (!right) throw std::runtime_error(fmt::format("first contact of pair {} {} {} s", i, what, time));
     };
-    const double reaches = a.shape->reach() + b.shape->reach(), until = std::min(contacts_[i], seconds);
+    const double max_extents = a.shape->bounding_radius() + b.shape->bounding_radius(),
+                 until = std::min(contacts_[i], seconds);
     for (int k = 0; k * 0.001 < until; ++k)
-      if (distance(at(a.path, k * 0.001), at(b.path, k * 0.001)) <= reaches)
+      if (distance(at(a.path, k * 0.001), at(b.path, k * 0.001)) <= max_extents)
         require(gap_at(a, b, k * 0.001) > 0, "is behind", k * 0.001);
     if (contacts_[i] < never)
       require(gap_at(a, b, contacts_[i]) <= tolerance + rounding, "is too early at", contacts_[i]);

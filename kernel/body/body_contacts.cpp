@@ -35,8 +35,8 @@ void append_contacts(const BodySetView& view, const Agents& agents, Pair pair,
   const AgentPair at(view, agents, a, b);
   const SpaceFrame frame(agents, a, b);
   const float *const record_a = view.record(shape_a), *const record_b = view.record(shape_b);
-  const double margin =
-      rounding::bound_margin * (double{header_of(record_a).reach} + double{header_of(record_b).reach});
+  const double margin = rounding::bound_margin *
+                        (double{header_of(record_a).max_extent} + double{header_of(record_b).max_extent});
   const auto may_touch = [&](const Cylinder& of_a, const Cylinder& of_b) {
     return cylinders_meet(of_a, of_b, margin);
   };

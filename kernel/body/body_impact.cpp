@@ -27,7 +27,7 @@ class FirstImpact {
  public:
   FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpacePoint& displacement)
       : spheres_(a, b, frame), displacement_(displacement) {
-    slack_ = 0x1p-16 * (double{header_of(a).reach} + double{header_of(b).reach} + frame.distance());
+    slack_ = 0x1p-16 * (double{header_of(a).max_extent} + double{header_of(b).max_extent} + frame.distance());
   }
 
   float time() {

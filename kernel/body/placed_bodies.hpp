@@ -21,7 +21,7 @@ struct PlacedBodies {
   }
   /// Returns how much more other bounds have to reach, metres.
   [[gnu::always_inline]] float margin() const noexcept {
-    return static_cast<float>(rounding::bound_margin) * (header_of(a).reach + header_of(b).reach) +
+    return static_cast<float>(rounding::bound_margin) * (header_of(a).max_extent + header_of(b).max_extent) +
            wide_gap();
   }
 };

@@ -30,7 +30,7 @@ class BroadPhase {
  public:
   /// Returns every pair of agents whose root discs are within `margin` and whose height intervals are within
   /// `height_margin` of each other, once, with first < second. It may contain pairs that exceed the margin by
-  /// a few millionths of the margin, the radii and the reaches, or by 2^-26 of the largest radius.
+  /// a few millionths of the margin, the radii and the extents, or by 2^-26 of the largest radius.
   /// Order:   by position, along the rows of a grid; the same for any number of threads.
   /// Memory:  the pairs are valid until the next call; the object keeps 72 bytes per agent and up to 24 per
   ///          pair.

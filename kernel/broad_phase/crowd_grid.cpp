@@ -23,25 +23,25 @@ constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
 /// The rounding error of a centre relative to the crowd's corner, divided by the crowd's extent.
 constexpr double centre_rounding = 0x1p-50;
 
-/// By how much clearance() may be too small, with D up to the margin plus twice both reaches: a fraction of
-/// the margin plus a fraction of both reaches. Each of two agents contributes half of it.
-constexpr double fraction_of_margin = 0x1p-18, fraction_of_reach = 128 * rounding::unit_roundoff;
+/// By how much clearance() may be too small, with D up to the margin plus twice both extents: a fraction of
+/// the margin plus a fraction of both extents. Each of two agents contributes half of it.
+constexpr double fraction_of_margin = 0x1p-18, fraction_of_extent = 128 * rounding::unit_roundoff;
 static_assert(2 * fraction_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
-static_assert(fraction_of_reach >=
-              (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
+static_assert(fraction_of_extent >=
+              (clearance_terms::short_of_extent + 2 * clearance_terms::short_of_distance) *
                   rounding::unit_roundoff);
-static_assert(fraction_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
+static_assert(fraction_of_extent >= rounding::terms::query_error * rounding::unit_roundoff,
               "what collide() may accept");
 
 /// Returns the radius of a root disc, enlarged by half the margin and by more than clearance() may be too
-/// small, which also covers the rounding of collide(). A shape's reach is at most that of its root disc. With
+/// small, which also covers the rounding of collide(). A shape's extent is at most that of its root disc. With
 /// a margin, the disc contains all other discs, which may protrude from the smallest one.
 double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margin) {
   const auto [x, y, r, row] = shapes.roots[root];
   const bool has_outer = margin > 0 && shapes.trees != nullptr;
   const double radius = has_outer ? shapes.trees[root].outer_radius : r;
-  const double reach = std::abs(static_cast<double>(x)) + std::abs(static_cast<double>(y)) + radius;
-  return radius + fraction_of_reach * reach + (0.5 + fraction_of_margin) * margin;
+  const double max_extent = std::abs(static_cast<double>(x)) + std::abs(static_cast<double>(y)) + radius;
+  return radius + fraction_of_extent * max_extent + (0.5 + fraction_of_margin) * margin;
 }
 
 struct PruningDisc {

@@ -120,7 +120,7 @@ bch_status bch_animated_shape_get_info(const bch_animated_shape* handle, bch_ani
     all.loops = shape.loops();
     all.begin = shape.begin();
     all.end = shape.end();
-    all.reach = shape.reach();
+    all.bounding_radius = shape.bounding_radius();
     all.bytes = shape.bytes();
     all.chunks = discs.chunks.size();
     for (const AnimatedChunk& chunk : discs.chunks) all.keys += chunk.times.size();

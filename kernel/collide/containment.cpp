@@ -33,7 +33,7 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
-/// Bounds what one_may_be_inside() rounds, in units of both shapes' reaches, in the terms of layout/base/rounding.hpp. The
+/// Bounds what one_may_be_inside() rounds, in units of both shapes' extents, in the terms of layout/base/rounding.hpp. The
 /// outer disc holds its contour whatever is rounded. The inner disc's centre c is rounded to float, by u |c|, which makes d
 /// and r larger by as much, and r is rounded up. The headings are off by 3e-10 each, and so is the position of what is at
 /// most 3 S away. With |c|^2 + r^2 <= P^2,
@@ -49,7 +49,7 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
 ///                        alone, because v is a vertex as given                     (between_cuts)
 /// (4)  segments decide:  R - r >= ((segment_margin) - (segment_place)) S           (between_segments)
 ///
-/// Either is more than (1) of the inner reach. (So no unit test notices a slack of 0.)
+/// Either is more than (1) of the inner extent. (So no unit test notices a slack of 0.)
 constexpr double inside_slack = 1e-6;
 constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
 constexpr double between_cuts =
@@ -105,7 +105,8 @@ bool one_contains_other(const Arguments& in, Pair pair) noexcept {
     return AgentColumns<void>::at<std::uint32_t>(in.agent_shape, agent);
   };
   const std::uint32_t shape_a = shape_of(agent_a), shape_b = shape_of(agent_b);
-  const double slack = inside_slack * (double{shapes.reach[shape_a]} + double{shapes.reach[shape_b]});
+  const double slack =
+      inside_slack * (double{shapes.max_extent[shape_a]} + double{shapes.max_extent[shape_b]});
   const Placement b_in_a = placement(in, agent_b, agent_a);
   const ContourRange of_a = shapes.shape_contours[shape_a], of_b = shapes.shape_contours[shape_b];
   for (std::uint32_t j = of_b.begin; j < of_b.end; ++j) {

@@ -34,17 +34,17 @@ class OverlapTraversal {
         segments_(shapes, placed_) {}
 
   /// Adds a pair, whose state, at index `pair`, stays `state_without_hit` unless the traversal finds a hit.
-  /// `reach`: the sum of the two shapes' reaches. `margin`: the sum of their segments' margins, 0 if discs decide. `gaps`
+  /// `max_extent`: the sum of the two shapes' extents. `margin`: the sum of their segments' margins, 0 if discs decide. `gaps`
   /// are read if KnowsGaps.
   void add(std::size_t pair, std::uint8_t state_without_hit, const Transform& b_in_a, std::uint32_t root_a,
-           std::uint32_t root_b, float reach, double margin, Gaps gaps) noexcept {
+           std::uint32_t root_b, float max_extent, double margin, Gaps gaps) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
     if (a.segments == no_segments || b.segments == no_segments) margin = 0;
     // Slots are numbered when they are first needed, because small batches need few.
     if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
-    traversals_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a,
-                         root_b, reach, 0,     pair,     margin,   {}};
+    traversals_[slot] = {b_in_a, a.top,      b.top, a.stride, b.stride, root_a,
+                         root_b, max_extent, 0,     pair,     margin,   {}};
     if constexpr (KnowsGaps<Simd>) traversals_[slot].gaps = gaps;
     frames_[slot][0] = {0, 0, 0};  // a sentinel: no unvisited overlaps, so the pair ends here
     states_[pair] = state_without_hit;
@@ -72,7 +72,7 @@ class OverlapTraversal {
     std::uint32_t a, b;
     std::uint32_t stride_a, stride_b;
     std::uint32_t root_a, root_b;
-    float reach;
+    float max_extent;
     std::uint32_t stack_top;  ///< frame
     std::size_t pair;
     double margin;  ///< metres; 0: discs decide, not segments
@@ -228,7 +228,7 @@ class OverlapTraversal {
         const std::uint16_t k = which[i];
         const Traversal& at = traversals_[slots_[k]];
         const auto [disc_a, disc_b] = first_overlap(at, overlaps_[k]);
-        const PlacedTrees trees{at.b_in_a, shapes_.trees[at.root_a], shapes_.trees[at.root_b], at.reach};
+        const PlacedTrees trees{at.b_in_a, shapes_.trees[at.root_a], shapes_.trees[at.root_b], at.max_extent};
         const bool stays =
             AncestorTest<Simd>(nodes, trees, disc_a, disc_b, ancestors_a[i], ancestors_b[i]).passes();
         if (!stays) overlaps_[k] &= overlaps_[k] - 1;

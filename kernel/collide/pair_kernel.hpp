@@ -75,10 +75,11 @@ class PairKernel {
     for (std::uint32_t k = 0; k < undecided_.size; ++k) {
       const std::uint32_t pair = undecided_.pair[k];
       if (coincide(pair)) continue;  // the state is `overlap` already
-      traversal_.add(begin + pair, state_without_hit(pair), transforms_.transform(pair),
-                     transforms_.root_a[pair], transforms_.root_b[pair],
-                     shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]],
-                     segment_margin(pair), gaps_of(pair));
+      traversal_.add(
+          begin + pair, state_without_hit(pair), transforms_.transform(pair), transforms_.root_a[pair],
+          transforms_.root_b[pair],
+          shapes_.max_extent[transforms_.shape_a[pair]] + shapes_.max_extent[transforms_.shape_b[pair]],
+          segment_margin(pair), gaps_of(pair));
     }
     end_stage<Simd>(Stage::add, undecided_.size);
   }

@@ -110,14 +110,14 @@ class ContactKernel {
     const std::uint32_t columns = swapped_ ? transforms_.root_a[k] : transforms_.root_b[k];
     if (shapes_.trees == nullptr) return begin_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
-    const float reach_a = shapes_.reach[transforms_.shape_a[k]],
-                reach_b = shapes_.reach[transforms_.shape_b[k]];
-    reach_ = reach_a + reach_b;
+    const float max_extent_a = shapes_.max_extent[transforms_.shape_a[k]],
+                max_extent_b = shapes_.max_extent[transforms_.shape_b[k]];
+    max_extent_ = max_extent_a + max_extent_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    // Nodes enclose their discs with a margin that suffices for reaches up to this sum: rounding.hpp, VIII.
-    is_conservative_ =
-        (rows_.conservative_nodes & columns_.conservative_nodes) != 0 &&
-        reach_ <= float{rounding::conservative_ratio} * (reach_a < reach_b ? reach_a : reach_b);
+    // Nodes enclose their discs with a margin that suffices for extents up to this sum: rounding.hpp, VIII.
+    is_conservative_ = (rows_.conservative_nodes & columns_.conservative_nodes) != 0 &&
+                       max_extent_ <= float{rounding::conservative_ratio} *
+                                          (max_extent_a < max_extent_b ? max_extent_a : max_extent_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
     placed_.margin =
         exact ? segment_margin<Simd>(shapes_, transforms_.shape_a[k], transforms_.shape_b[k]) : 0;
@@ -313,7 +313,7 @@ class ContactKernel {
     ancestors_a.begin(nodes_, a, disc_a), ancestors_b.begin(nodes_, b, disc_b);
     for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
       ancestors_a.step(nodes_, k), ancestors_b.step(nodes_, k);
-    return AncestorTest<Simd>(nodes_, {placed_.b_in_a, a, b, reach_}, disc_a, disc_b, ancestors_a,
+    return AncestorTest<Simd>(nodes_, {placed_.b_in_a, a, b, max_extent_}, disc_a, disc_b, ancestors_a,
                               ancestors_b)
         .passes();
   }
@@ -341,8 +341,8 @@ class ContactKernel {
   // State of the current pair.
   bool swapped_;           ///< the first agent is B
   PlacedSegments placed_;  ///< a margin of 0: discs decide
-  float reach_;            ///< of both shapes
-  bool is_conservative_;   ///< Tree::conservative_nodes of both, and similar reaches
+  float max_extent_;       ///< of both shapes
+  bool is_conservative_;   ///< Tree::conservative_nodes of both, and similar extents
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

@@ -23,7 +23,7 @@ double wrapped(double at, double period) noexcept {
 }
 
 /// Returns how far from its position an agent is searched for at most, plus the rounding of the broad phase.
-double farthest_reach(const ShapeSetView& shapes, const Agents& agents, double margin) noexcept {
+double farthest_extent(const ShapeSetView& shapes, const Agents& agents, double margin) noexcept {
   const CrowdBounds all = bounds(shapes, agents, margin, 0, agents.size());
   return (all.offset + all.max_radius) * (1 + 0x1p-18);
 }
@@ -36,17 +36,17 @@ struct Shifts {
   const double* end() const noexcept { return values.data() + count; }
 };
 
-Shifts shifts(double at, double period, double reach) noexcept {
+Shifts shifts(double at, double period, double max_extent) noexcept {
   Shifts all;
-  if (period > 0 && at <= 2 * reach) all.values[all.count++] = period;
-  if (period > 0 && at >= period - 2 * reach) all.values[all.count++] = -period;
+  if (period > 0 && at <= 2 * max_extent) all.values[all.count++] = period;
+  if (period > 0 && at >= period - 2 * max_extent) all.values[all.count++] = -period;
   return all;
 }
 
-void require_longer(double period, double reach, const char* axis) {
-  if (period == 0 || period > 4 * reach) return;
+void require_longer(double period, double max_extent, const char* axis) {
+  if (period == 0 || period > 4 * max_extent) return;
   throw std::invalid_argument("crowd: expected a period along " + std::string(axis) + " of more than " +
-                              shortest(4 * reach) + " m, four times the farthest reach, found " +
+                              shortest(4 * max_extent) + " m, four times the farthest extent, found " +
                               shortest(period));
 }
 
@@ -64,9 +64,9 @@ void PeriodicAgents::add_image(std::uint32_t agent, double x, double y) {
 
 void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, CrowdOptions::Period period,
                          double margin) {
-  const double reach = agents.size() == 0 ? 0 : farthest_reach(shapes, agents, margin);
-  require_longer(period.x, reach, "x");
-  require_longer(period.y, reach, "y");
+  const double max_extent = agents.size() == 0 ? 0 : farthest_extent(shapes, agents, margin);
+  require_longer(period.x, max_extent, "x");
+  require_longer(period.y, max_extent, "y");
   agents_ = agents.size();
   origin_.clear();
   shape_.clear(), x_.clear(), y_.clear(), heading_.clear(), heading_y_.clear(), level_.clear(), z_.clear();
@@ -80,7 +80,7 @@ void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, Crowd
   }
   for (std::uint32_t i = 0; i < agents_; ++i) {
     const double x = x_[i], y = y_[i];
-    const Shifts along_x = shifts(x, period.x, reach), along_y = shifts(y, period.y, reach);
+    const Shifts along_x = shifts(x, period.x, max_extent), along_y = shifts(y, period.y, max_extent);
     for (const double shift_x : along_x)
       for (const double shift_y : along_y)
         if (shift_x != 0 || shift_y != 0) add_image(i, x + shift_x, y + shift_y);

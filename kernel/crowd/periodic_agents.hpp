@@ -21,7 +21,7 @@ namespace bch::detail {
 class PeriodicAgents {
  public:
   /// Sets the agents, which are valid. `margin`: as for BroadPhase::find().
-  /// Errors:  throws std::invalid_argument on a period of at most four times the farthest reach of an agent.
+  /// Errors:  throws std::invalid_argument on a period of at most four times the farthest extent of an agent.
   void set(const ShapeSetView& shapes, const Agents& agents, CrowdOptions::Period period, double margin);
 
   Agents agents() const noexcept;

@@ -119,7 +119,7 @@ class Sweeps {
         agents_(agents),
         options_(options),
         filter_(filter),
-        reach_(options.gap + 2 * options.largest_step) {
+        margin_(options.gap + 2 * options.largest_step) {
     of_.begin(agents, options.largest_turn > 0);
     agents_.x = of_.x, agents_.y = of_.y;
     set_headings();
@@ -160,14 +160,14 @@ class Sweeps {
 
   /// Keeps the pairs that collide.
   void add_pairs(std::uint32_t sweep) {
-    const CrowdMemory::Candidates candidates = memory_.find(bodies_, agents_, reach_, filter_);
+    const CrowdMemory::Candidates candidates = memory_.find(bodies_, agents_, margin_, filter_);
     const auto& distance = memory_.distance.of_candidates;
     const auto& direction = memory_.space_direction.of_candidates;
     memory_.distance.of_candidates.resize(candidates.pairs.size());
     memory_.space_direction.of_candidates.resize(candidates.pairs.size());
     clearance(bodies_, candidates.agents, candidates.pairs,
               {memory_.distance.of_candidates, memory_.space_direction.of_candidates},
-              {.implementation = options_.implementation, .max_distance = reach_});
+              {.implementation = options_.implementation, .max_distance = margin_});
     memory_.keep(candidates.pairs, [&](std::size_t i) { return distance[i] == 0; });
     const auto measure = [&](const auto& query) {
       memory_.measure_kept(bodies_, candidates, options_.directions, options_.implementation, query);
@@ -186,7 +186,7 @@ class Sweeps {
       is_open_ |= of_.solver.mobility(first) + of_.solver.mobility(second) > 0;
     }
     for (std::size_t i = 0; i < candidates.pairs.size(); ++i) {
-      if (!(distance[i] > 0 && double{distance[i]} <= reach_)) continue;
+      if (!(distance[i] > 0 && double{distance[i]} <= margin_)) continue;
       const auto [first, second] = memory_.named(candidates.pairs[i]);
       limit_approach(of_.solver, first, second, direction[i],
                      std::max(0.0, double{distance[i]} - options_.gap));
@@ -198,10 +198,10 @@ class Sweeps {
     if (options_.obstacles == nullptr) return;
     of_.wall_distance.resize(agents_.size()), of_.wall_direction.resize(agents_.size());
     clearance(bodies_, agents_, *options_.obstacles, {of_.wall_distance, of_.wall_direction},
-              {options_.implementation, reach_, Overlap::deepest});
+              {options_.implementation, margin_, Overlap::deepest});
     for (std::uint32_t i = 0; i < agents_.size(); ++i) {
       const double distance{of_.wall_distance[i]};
-      if (!(distance <= reach_)) continue;
+      if (!(distance <= margin_)) continue;
       const bool touches = distance <= 0;
       if (touches) of_.agents_at_walls.push_back(i);
       is_open_ |= touches && of_.solver.mobility(i) > 0;
@@ -218,7 +218,7 @@ class Sweeps {
   Agents agents_;
   const Crowd::ResolveOptions& options_;
   const PairFilter& filter_;
-  double reach_;
+  double margin_;
   bool is_open_ = false;  ///< whether somebody who may move collides
 };
 

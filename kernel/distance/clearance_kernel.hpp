@@ -103,7 +103,7 @@ class ClearanceKernel {
   /// Returns the ClearanceMeasure of a pair: what computes its gaps and keeps the least one. It is for the
   /// next search of the kernel.
   Measure measure(std::uint32_t pair) noexcept {
-    Measure measure(arguments_.limit, arguments_.stop_below, reach(pair));
+    Measure measure(arguments_.limit, arguments_.stop_below, max_extent(pair));
     const Tree &a = shapes_.trees[transforms_.root_a[pair]], &b = shapes_.trees[transforms_.root_b[pair]];
     if (!arguments_.in.exact_leaves || a.segments == no_segments || b.segments == no_segments) return measure;
     const double margin = segment_margin<Simd>(shapes_, transforms_.shape_a[pair], transforms_.shape_b[pair]);
@@ -113,8 +113,8 @@ class ClearanceKernel {
     return measure;
   }
 
-  float reach(std::uint32_t pair) const noexcept {
-    return shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]];
+  float max_extent(std::uint32_t pair) const noexcept {
+    return shapes_.max_extent[transforms_.shape_a[pair]] + shapes_.max_extent[transforms_.shape_b[pair]];
   }
 
   struct Step {
@@ -130,13 +130,13 @@ class ClearanceKernel {
 
   void bound_roots(std::uint32_t k) noexcept {
     const Step step = between_roots(k);
-    alignas(64) float reaches[Simd::width], radii[Simd::width];
+    alignas(64) float max_extents[Simd::width], radii[Simd::width];
     for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
-      reaches[lane] = reach(k + lane);
+      max_extents[lane] = max_extent(k + lane);
       radii[lane] = shapes_.trees[transforms_.root_a[k + lane]].outer_radius +
                     shapes_.trees[transforms_.root_b[k + lane]].outer_radius;
     }
-    Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
+    Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(max_extents)));
   }
 
   /// Answers the pairs of a set of single discs.

@@ -54,9 +54,9 @@ class ClearanceMeasure {
   using Segments = SegmentGaps<Simd, ClearanceMeasure>;
 
   /// `limit`: larger gaps are not searched for. `stop_below`: a gap at most that large ends the search.
-  /// `reach`: S, metres.
-  ClearanceMeasure(float limit, float stop_below, float reach) noexcept
-      : stop_below_(stop_below), slack_(slack_per_reach * reach) {
+  /// `max_extent`: S, metres.
+  ClearanceMeasure(float limit, float stop_below, float max_extent) noexcept
+      : stop_below_(stop_below), slack_(slack_per_extent * max_extent) {
     search_within({limit, false, no_node, no_node});
   }
   ClearanceMeasure() = default;
@@ -81,8 +81,8 @@ class ClearanceMeasure {
   float best() const noexcept { return best_; }
 
   Float bound(Float x, Float y, Float r) const noexcept { return rough_gap(x, y, r + Float(slack_)); }
-  static Float bound(Float x, Float y, Float r, Float reach) noexcept {
-    return rough_gap(x, y, r + Float(slack_per_reach) * reach);
+  static Float bound(Float x, Float y, Float r, Float max_extent) noexcept {
+    return rough_gap(x, y, r + Float(slack_per_extent) * max_extent);
   }
 
   /// Returns which pairs of two blocks or leaf blocks may improve on the best, without square roots:
@@ -135,12 +135,12 @@ class ClearanceMeasure {
   }
 
  private:
-  static constexpr float slack_per_reach = 0x1p-18f;
+  static constexpr float slack_per_extent = 0x1p-18f;
   static constexpr float gap_factor = 1 - 0x1p-20f, bound_factor = 1 - 0x1p-18f, root_factor = 1 + 0x1p-20f;
   static constexpr float square_factor = 1 - 0x1p-17f, best_slack = 0x1p-21f;
 
   static constexpr double u = rounding::unit_roundoff;
-  static_assert(double{slack_per_reach} >= clearance_terms::slack * u);
+  static_assert(double{slack_per_extent} >= clearance_terms::slack * u);
   static_assert(1 - double{gap_factor} >= clearance_terms::shortening * u);
   static_assert(1 - double{bound_factor} >= clearance_terms::bound_shortening * u);
   static_assert(1 - double{square_factor} >= clearance_terms::square_shortening * u);

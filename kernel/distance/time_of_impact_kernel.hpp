@@ -86,7 +86,7 @@ class TimeOfImpactKernel {
   }
 
   /// Returns the slack of supports during the displacement v, beyond the margin that layout/base/rounding.hpp
-  /// includes in supports. As there, S is the sum of both reaches, t the position of B in A's frame, D the
+  /// includes in supports. As there, S is the sum of both extents, t the position of B in A's frame, D the
   /// distance of two centres, and u = 2^-24:
   ///
   ///     (1) discs may protrude from the outlines that supports belong to: `excess`
@@ -103,20 +103,21 @@ class TimeOfImpactKernel {
     static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "the largest of the three");
     const float excess = shapes_.profiles[transforms_.shape_a[pair]].excess +
                          shapes_.profiles[transforms_.shape_b[pair]].excess;
-    return excess + relative_error * (reach(pair) + __builtin_fabsf(transforms_.tx[pair]) +
+    return excess + relative_error * (max_extent(pair) + __builtin_fabsf(transforms_.tx[pair]) +
                                       __builtin_fabsf(transforms_.ty[pair]) + __builtin_fabsf(x_[pair]) +
                                       __builtin_fabsf(y_[pair]));
   }
 
-  float reach(std::uint32_t pair) const noexcept {
-    return shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]];
+  float max_extent(std::uint32_t pair) const noexcept {
+    return shapes_.max_extent[transforms_.shape_a[pair]] + shapes_.max_extent[transforms_.shape_b[pair]];
   }
 
   /// Returns an upper bound of the distance between centres of discs of the two shapes. A centre may be that
-  /// of a box around other discs, which is at most sqrt(2) times the shape's reach from the origin. The
+  /// of a box around other discs, which is at most sqrt(2) times the shape's extent from the origin. The
   /// factor 2 is more than that.
   float farthest(std::uint32_t pair) const noexcept {
-    return 2 * reach(pair) + __builtin_fabsf(transforms_.tx[pair]) + __builtin_fabsf(transforms_.ty[pair]);
+    return 2 * max_extent(pair) + __builtin_fabsf(transforms_.tx[pair]) +
+           __builtin_fabsf(transforms_.ty[pair]);
   }
 
   /// Returns the time of a pair in a set of single discs.

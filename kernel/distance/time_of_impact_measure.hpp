@@ -26,15 +26,15 @@ static_assert(of_distance >= 2 * r::position + r::sum + r::apart - 0x1p-40);
 static_assert(lengthening >= of_distance + 2);
 
 /// The errors of bounds, in S and D', with D <= D' + 2 S: (6), (8), (9), (10).
-constexpr double at_contact_reach = 60, at_contact_distance = 20;
-static_assert(at_contact_reach >= 20 + 2 * (lengthening + 4) && at_contact_distance >= lengthening + 4);
-constexpr double root_reach = 19, root_distance = 7, difference_reach = 15, difference_distance = 8;
-constexpr double bound_reach = 94, bound_distance = 35;
-static_assert(bound_reach >= at_contact_reach + root_reach + difference_reach);
+constexpr double at_contact_extent = 60, at_contact_distance = 20;
+static_assert(at_contact_extent >= 20 + 2 * (lengthening + 4) && at_contact_distance >= lengthening + 4);
+constexpr double root_extent = 19, root_distance = 7, difference_extent = 15, difference_distance = 8;
+constexpr double bound_extent = 94, bound_distance = 35;
+static_assert(bound_extent >= at_contact_extent + root_extent + difference_extent);
 static_assert(bound_distance >= at_contact_distance + root_distance + difference_distance);
 constexpr double displacement_error = 6;  // of S, where approximate_sqrt() is exact
 constexpr double slack = 256;             // of F
-static_assert(slack >= bound_reach + bound_distance + displacement_error);
+static_assert(slack >= bound_extent + bound_distance + displacement_error);
 
 }  // namespace time_of_impact_terms
 
@@ -74,7 +74,7 @@ static_assert(slack >= bound_reach + bound_distance + displacement_error);
 ///     (6) at T the centres are within R'_A + R'_B + 16 u D, also if discs move apart; rounding adds 20 u S +
 ///         4 u D: in total 60 u S + 20 u D'
 ///     (7) the rotation adds 2 u of each coefficient of B's placement, of |d| and of A's centre, and rounds
-///         two more sums: 6 u P_B + 2 u P_A + 3 u |d| + u D', with centres within 1.42 reaches; and 2.5 u D'
+///         two more sums: 6 u P_B + 2 u P_A + 3 u |d| + u D', with centres within 1.42 extents; and 2.5 u D'
 ///         for (w_x, w_y): either length is off by at most 13 u S + 7 u D'
 ///     (8) with 3 u of the squares, the root is off by 19 u S + 7 u D'
 ///     (9) the difference is too late by at most 15 u S + 8 u D'

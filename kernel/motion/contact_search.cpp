@@ -72,16 +72,16 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   a_ = &body_a, b_ = &body_b;
   limit_.begin();
   in_space_ = a.tree->in_space && b.tree->in_space;
-  const double reaches = a.tree->reach + b.tree->reach,
+  const double max_extents = a.tree->max_extent + b.tree->max_extent,
                heights = in_space_ ? a.tree->height + b.tree->height : never;
-  const double position_slack =
-      position_rounding * (a.farthest + b.farthest) + root_rounding * (reaches + (in_space_ ? heights : 0));
+  const double position_slack = position_rounding * (a.farthest + b.farthest) +
+                                root_rounding * (max_extents + (in_space_ ? heights : 0));
   for (double time = from; time <= to;) {
     const double end = std::min(a_->path_end(time), b_->path_end(time));
     const double until = is_finite(end) ? end : to + 1;
     slack_ = position_slack + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeMotion relative(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
-    const auto [enter, leave] = relative.times_within(reaches + slack_, heights + slack_);
+    const auto [enter, leave] = relative.times_within(max_extents + slack_, heights + slack_);
     limit_.count(1);
     if (enter <= 1) {
       const double length = until - time,
@@ -92,7 +92,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
       time = end;
     } else {
       // Too far apart until both have approached at their greatest speeds.
-      const double gap = relative.distance() - reaches - slack_, speed = a.path_speed + b.path_speed;
+      const double gap = relative.distance() - max_extents - slack_, speed = a.path_speed + b.path_speed;
       const bool waits = gap > 0 && speed > 0;
       time = std::max(end, waits ? std::nextafter(time + gap / speed * (1 - root_rounding), time) : end);
     }

@@ -31,7 +31,7 @@ namespace bch::detail {
 /// bodies, so no contact is lost.
 ///
 /// Never late: discs are enlarged by the deviation from chords, and by `slack_`, which bounds the rounding in
-/// double. Below, reaches are the sum of both bodies' reaches, in 3D with their heights.
+/// double. Below, extents are the sum of both bodies' extents, in 3D with their heights.
 ///
 ///     (time)      2^-48 T v: T bounds all numbers in converting a time of the motion into a time of the clip
 ///                 and a fraction between keys, in fewer than 32 roundings. It is the largest time between
@@ -41,14 +41,14 @@ namespace bch::detail {
 ///                 length.) v is the greatest speed of a disc between two keys of the path. This bound has
 ///                 two limits. Keys of the path are exact, so the error of the body's position is at most the
 ///                 displacement between two of them. The error of a disc within its body is at most twice the
-///                 reach.
+///                 extent.
 ///     (position)  2^-48 of the coordinates: interpolation between two keys, and their difference
-///     (turn)      4e-10 of the reaches: rotation()
-///     (root)      2^-20 of the reaches: more than all errors but (time) and (position), including that of
+///     (turn)      4e-10 of the extents: rotation()
+///     (root)      2^-20 of the extents: more than all errors but (time) and (position), including that of
 ///                 sums along a line. A computed root belongs to a polynomial whose coefficients are off by
-///                 at most 2^-50 of (6 reaches)^2, because no disc is placed farther away than the reaches.
-///                 The enlargement adds (2^-20 reaches)^2 = 2^-40 reaches^2 or more to the polynomial, over
-///                 28 times that error of 36 * 2^-50 reaches^2, so the root is no later than the contact of
+///                 at most 2^-50 of (6 extents)^2, because no disc is placed farther away than the extents.
+///                 The enlargement adds (2^-20 extents)^2 = 2^-40 extents^2 or more to the polynomial, over
+///                 28 times that error of 36 * 2^-50 extents^2, so the root is no later than the contact of
 ///                 the original discs.
 ///
 /// At the time found, the distance of two discs is at most twice the enlargement of both.

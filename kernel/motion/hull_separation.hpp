@@ -23,7 +23,7 @@ namespace bch::detail {
 ///         is linear in s.
 ///     (2) A vector rotated by the angle s * turn differs from the interpolation of both ends, (1 - s)
 ///         (rotated by 0) + s (rotated by turn), by at most turn^2 / 8 of its length.
-///     (3) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach.
+///     (3) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 extent.
 ///     (4) The first two terms exceed linear interpolation between E(d0, 0) and E(d1, 1) by s (1 - s) (E(d0,
 ///         1) - E(d0, 0) - E(d1, 1) + E(d1, 0)), where s (1 - s) <= 1/4.
 class SupportBound {
@@ -43,7 +43,7 @@ class SupportBound {
         first_(in_body_frame(direction, begin.heading)),
         last_(turns_ ? in_body_frame(direction, end.heading) : first_) {
     const double turn = end.heading - begin.heading;
-    deviation_ = turn * turn / 8 * body.tree().reach * length(direction);
+    deviation_ = turn * turn / 8 * body.tree().max_extent * length(direction);
   }
 
   /// Returns the bound for the whole body, or for one of its bands of height, whose extents in the window are

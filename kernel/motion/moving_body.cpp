@@ -45,13 +45,13 @@ double MovingBody::time_slack(double time) const noexcept {
                latest = std::max(std::abs(goes ? path[next_on_path_ - 1].time : time), std::abs(end)),
                of_clip = std::max(std::abs(tree().begin()), std::abs(tree().end()));
   const double rounding = time_rounding * (latest + 2 * std::abs(facts_->clip_begin) + 3 * of_clip),
-               of_discs = std::min(2 * (tree().reach + tree().height), rounding * tree().speed);
+               of_discs = std::min(2 * (tree().max_extent + tree().height), rounding * tree().speed);
   if (!goes) return of_discs;
   const PathKey &from = path[next_on_path_ - 1], &to = path[next_on_path_];
   const double x = to.x - from.x, y = to.y - from.y, z = to.z - from.z,
                turn = std::abs(to.heading - from.heading);
   const double fraction = std::min(1.0, rounding / (to.time - from.time));
-  return of_discs + fraction * (std::sqrt(x * x + y * y + z * z) + turn * tree().reach);
+  return of_discs + fraction * (std::sqrt(x * x + y * y + z * z) + turn * tree().max_extent);
 }
 
 PathKey MovingBody::pose(double time) const noexcept {

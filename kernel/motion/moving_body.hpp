@@ -14,7 +14,7 @@
 namespace bch::detail {
 
 /// Factors of the errors of positions, which ContactSearch derives. time_rounding is multiplied by a speed
-/// and a time, position_rounding by a coordinate, and root_rounding by a reach.
+/// and a time, position_rounding by a coordinate, and root_rounding by an extent.
 constexpr double time_rounding = 0x1p-48, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
 /// Holds the properties of a motion that a search needs.

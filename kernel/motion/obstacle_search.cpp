@@ -16,11 +16,11 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
   MovingBody body(motion);
   body_ = &body;
   chunks_tested_ = 0;
-  reach_ = motion.tree->reach;
+  max_extent_ = motion.tree->max_extent;
   limit_.begin();
   for (double time = from; time <= to;) {
     const double end = body_->path_end(time);
-    slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach_;
+    slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * max_extent_;
     // A body that stands still repeats itself after a cycle.
     const bool stands = is_same_pose(body_->pose(time), body_->pose(end));
     const double period = stands ? body_->period(time) : 0,
@@ -39,7 +39,8 @@ double ObstacleSearch::first_on_path(double from, double end, double to) {
   const double half = from + (end - from) / 2;
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const double x = b.x - a.x, y = b.y - a.y;
-  if (x * x + y * y <= 4 * reach_ * reach_ || !(from < half && half < end)) return first_near(from, end, to);
+  if (x * x + y * y <= 4 * max_extent_ * max_extent_ || !(from < half && half < end))
+    return first_near(from, end, to);
   const double sooner = first_on_path(from, half, to);
   return sooner < never ? sooner : first_on_path(half, end, to);
 }
@@ -48,7 +49,7 @@ double ObstacleSearch::first_on_path(double from, double end, double to) {
 bool ObstacleSearch::find_near(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
-      near_.find_along({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
+      near_.find_along({a.x, a.y, {1, 0}}, {0, 0}, max_extent_ + slack_, {b.x - a.x, b.y - a.y});
   found_.clear();
   for (const LocalSegment& segment : found) found_.push_back(near_.obstacles().segments[segment.slot]);
   return !found_.empty() || is_in_area(a.x, a.y);

@@ -17,10 +17,10 @@ namespace bch::detail {
 /// Finds the first contact of a motion with obstacles, for one motion after the other. Keeps its memory in
 /// between. Works like ContactSearch; nearby segments replace the second body.
 ///
-/// A path is divided into parts no longer than twice the reach; the tree of boxes finds the segments within
-/// reach of a part. Discs are enlarged by the deviation from chords by rotation, and by `slack_`: the errors
-/// that ContactSearch derives, for one body and with twice the reach. Twice is needed because nodes are
-/// within three reaches of where the part begins, and the ends of segments that they touch within one more.
+/// A path is divided into parts no longer than twice the extent; the tree of boxes finds the segments within
+/// extent of a part. Discs are enlarged by the deviation from chords by rotation, and by `slack_`: the errors
+/// that ContactSearch derives, for one body and with twice the extent. Twice is needed because nodes are
+/// within three extents of where the part begins, and the ends of segments that they touch within one more.
 /// Coordinates of a long or far segment are off by 2^-48 of themselves at most (StaticSegment::slack). Twice
 /// that is at most 1.8e-14 of the sum of the distances to both its ends; OutlineSegment derives half of that.
 ///
@@ -56,7 +56,7 @@ class ObstacleSearch {
   NearSegments near_;
   double tolerance_;
   StepLimit limit_;
-  double reach_ = 0, slack_ = 0;
+  double max_extent_ = 0, slack_ = 0;
   double margin_ = 0;  ///< enlargement of a disc in the current interval
   MovingBody* body_ = nullptr;
   std::uint32_t chunks_tested_ = 0;  ///< chunks begun at the last test of polygons

@@ -18,11 +18,11 @@ void PlacedNodes::place(const MovingBody& body, const PathKey& from, const PathK
   turn_ = rotation(from.heading), turn_at_end_ = rotation(to.heading);
   x_ = from.x, y_ = from.y, x_at_end_ = to.x, y_at_end_ = to.y;
   z_ = from.z, z_at_end_ = to.z, in_space_ = in_space;
-  const double turn = std::abs(to.heading - from.heading), reach = body.tree().reach,
+  const double turn = std::abs(to.heading - from.heading), max_extent = body.tree().max_extent,
                seconds = chunk_->times[key + 1] - chunk_->times[key],
                distance =
-                   std::min(2 * reach, double{chunk_->speed} * seconds * (fraction_at_end_ - fraction_));
-  deviation_ = (turn * turn * reach + 2 * turn * distance) / 8;
+                   std::min(2 * max_extent, double{chunk_->speed} * seconds * (fraction_at_end_ - fraction_));
+  deviation_ = (turn * turn * max_extent + 2 * turn * distance) / 8;
   const std::size_t margin = chunk_->nodes() + animated_width;
   if (discs_[0].size() < margin)
     for (std::vector<double>& numbers : discs_) numbers.resize(margin);

@@ -22,7 +22,7 @@ namespace bch::detail {
 /// Derivation. For 0 <= s <= 1, a centre is
 ///
 ///     p(s) = R(h + turn s) (c + v s) + (the straight path of the body)
-///     |p''| <= turn^2 |c + v s| + 2 |turn| |v| <= turn^2 reach + 2 |turn| |v|
+///     |p''| <= turn^2 |c + v s| + 2 |turn| |v| <= turn^2 extent + 2 |turn| |v|
 ///
 /// and a curve deviates from its chord, at equal s, by at most max |p''| / 8.
 class PlacedNodes {

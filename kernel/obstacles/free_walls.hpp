@@ -32,7 +32,7 @@ class ObstacleWalls {
   }
   void turn(float x, float y) { x_ = x, y_ = y, is_turned_ = false; }
   float next(float place) {
-    if (double{place} > limit_) take(std::max(2 * double{place}, source_.reach(agent_)));
+    if (double{place} > limit_) take(std::max(2 * double{place}, source_.max_extent(agent_)));
     return is_empty_ ? place : turned().next(place);
   }
   float after_gap(float place) {
@@ -65,7 +65,7 @@ class ObstacleWalls {
   }
   /// Takes all segments that ways up to a limit may come to.
   void take(double limit);
-  FreeElement element(const LocalSegment& segment, double reach) const;
+  FreeElement element(const LocalSegment& segment, double max_extent) const;
   /// Gives a wall its heights as seen from the agent's ground, not far beyond the body's own.
   void set_heights(const LocalSegment& segment, FreeElement& element) const;
   double ground() const { return source_.agents().z.empty() ? 0 : source_.agents().z[agent_]; }
@@ -90,14 +90,14 @@ void ObstacleWalls<Query, Source>::take(double limit) {
   if (body == nullptr) return;
   query_.near_body(*body);
   const double within = body->outer_radius() + limit,
-               reach = within + std::abs(double{body->centre().x}) + std::abs(double{body->centre().y});
+               max_extent = within + std::abs(double{body->centre().x}) + std::abs(double{body->centre().y});
   double slack = 0;
   const std::span<const LocalSegment> segments = query_.near().find(body->place, body->centre(), within);
   is_empty_ = segments.empty();
   if (is_empty_) return;
   begin_leaves(segments.size(), search_.b);
   for (const LocalSegment& segment : segments) {
-    search_.b.add(element(segment, reach));
+    search_.b.add(element(segment, max_extent));
     slack = std::max(slack, segment.slack);
   }
   source_.begin_walls(search_, agent_, slack + 0x1p-50 * std::abs(ground()));
@@ -105,8 +105,9 @@ void ObstacleWalls<Query, Source>::take(double limit) {
 
 /// Of a segment, only what is within reach counts.
 template <class Query, class Source>
-FreeElement ObstacleWalls<Query, Source>::element(const LocalSegment& segment, double reach) const {
-  const double from = std::clamp(segment.from, -reach, reach), to = std::clamp(segment.to, -reach, reach);
+FreeElement ObstacleWalls<Query, Source>::element(const LocalSegment& segment, double max_extent) const {
+  const double from = std::clamp(segment.from, -max_extent, max_extent),
+               to = std::clamp(segment.to, -max_extent, max_extent);
   const double middle = (from + to) / 2, half = (to - from) / 2;
   FreeElement element{static_cast<float>(middle * segment.x - segment.offset * segment.y),
                       static_cast<float>(middle * segment.y + segment.offset * segment.x),

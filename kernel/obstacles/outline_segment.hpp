@@ -20,7 +20,7 @@ namespace bch::detail {
 ///
 /// Never above the distance D of the outlines: m bounds the error of the outline's points (rounding.hpp, V, for one shape), and half
 /// of slack that of the segment. The rounding of s itself, 2^-51 s, is in the other half of slack and in m, because s is at most the
-/// distance to the segment's ends plus the reach.
+/// distance to the segment's ends plus the extent.
 ///
 /// Below D by no more than m, twice slack, and the rounding to float. With A and B the distances of the segment's ends from the agent,
 /// |dx| + |dy| <= sqrt(2) A, and the length is at most A + B, so that

@@ -15,7 +15,7 @@ namespace bch::detail {
 /// Represents a segment of an obstacle in the frame of an agent, by its line: a point has coordinates `along` it and `across` it.
 ///
 /// Rounding, in the notation of layout/base/rounding.hpp. All is done in double, with headings that are within 3e-10 of the exact
-/// ones, which moves points within the reach P of an agent by 0.006 u P: enlarged radii have room for 16.5 u P of queries
+/// ones, which moves points within the extent P of an agent by 0.006 u P: enlarged radii have room for 16.5 u P of queries
 /// (contact_error). Double rounds in proportion to the ends' distance d from the agent: by 2^-53 |d| for each of the subtraction of
 /// positions, the direction (three roundings), two products and a sum, less than 8 * 2^-53 |d| together. `slack` is twice that. So
 /// a disc whose outline meets the segment passes touches(), and a gap is never larger than that of the outlines.

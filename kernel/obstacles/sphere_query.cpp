@@ -64,7 +64,7 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
     return is_area && (segments.empty() || !is_clear(segment) || area.contains({x, y}));
   };
   // What is left out by bounds must not depend on their rounding.
-  const double tolerance = 0x1p-44 * (std::abs(ground_) + double{header.reach} + std::abs(nearest.gap));
+  const double tolerance = 0x1p-44 * (std::abs(ground_) + double{header.max_extent} + std::abs(nearest.gap));
   const std::uint32_t stride = header.node_stride, size = header.leaf_size;
   const float* const nodes = record_ + record_nodes;
   for (std::uint32_t leaf = 0; leaf < header.leaf_count; ++leaf) {

@@ -155,9 +155,9 @@ void FreePair::bound_by(const FreeElement& of_a, const FreeElement& of_b) noexce
   bound_.x[i] = of_b.x - of_a.x, bound_.y[i] = of_b.y - of_a.y, bound_.left[i] = radius * radius - z * z;
 }
 
-void FreePair::begin(const Implementation& implementation, FreeKind kind, double margin, double reaches) {
+void FreePair::begin(const Implementation& implementation, FreeKind kind, double margin, double max_extents) {
   // Nodes are floats, too, and their products.
-  const double slack = margin + rounding::bound_margin * reaches;
+  const double slack = margin + rounding::bound_margin * max_extents;
   kernels_ = implementation.kernels;
   task_.kind = kind, task_.margin = rounding::round_up(margin),
   task_.node_slack = rounding::round_up(slack + margin);

@@ -52,8 +52,8 @@ class FreePair {
   /// Clears the bound, and adds to it.
   void clear_bound() noexcept;
   void bound_by(const FreeElement& of_a, const FreeElement& of_b) noexcept;
-  /// Begins with both bodies. The margin says how near elements may come, `reaches` how far the elements of both are off, metres.
-  void begin(const Implementation& implementation, FreeKind kind, double margin, double reaches);
+  /// Begins with both bodies. The margin says how near elements may come, `max_extents` how far the elements of both are off, metres.
+  void begin(const Implementation& implementation, FreeKind kind, double margin, double max_extents);
   /// Bounds by the deepest two elements of leaves that overlap, of some.
   void sample();
 

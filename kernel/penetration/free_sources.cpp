@@ -48,25 +48,25 @@ constexpr auto unmoved = [](const auto& of_a) { return of_a; };
 constexpr Transform unmoved_ground{1, 0, 0, 0};
 
 /// Returns how far two that a move may bring together are off.
-double reaches_of(const Agents& agents, Pair pair, double reaches) {
+double extents_of(const Agents& agents, Pair pair, double max_extents) {
   const double x = agents.x[pair.second] - agents.x[pair.first],
                y = agents.y[pair.second] - agents.y[pair.first];
-  return std::max(reaches, std::sqrt(x * x + y * y));
+  return std::max(max_extents, std::sqrt(x * x + y * y));
 }
 
-double reach_of(const FreeBody& body) {
-  double reach = 0;
+double extent_of(const FreeBody& body) {
+  double max_extent = 0;
   for (std::uint32_t i = 0; i < body.size(); ++i) {
     const FreeElement each = body.element(i);
-    reach = std::max(reach, std::abs(double{each.x}) + std::abs(double{each.y}) + std::abs(double{each.z}) +
-                                double{each.radius});
+    max_extent = std::max(max_extent, std::abs(double{each.x}) + std::abs(double{each.y}) +
+                                          std::abs(double{each.z}) + double{each.radius});
   }
-  return reach;
+  return max_extent;
 }
 
 }  // namespace
 
-double OutlineSource::reach(std::uint32_t agent) const {
+double OutlineSource::max_extent(std::uint32_t agent) const {
   const auto index = static_cast<std::uint32_t>(agents_.root(agent, view_.level_count));
   const Root& root = view_.roots[index];
   return std::abs(double{root.x}) + std::abs(double{root.y}) + outer_radius(view_, index);
@@ -101,7 +101,7 @@ void OutlineSource::begin(FreePair& search, Pair pair) const {
   const Transform& b_in_a = frame.ground();
   const Kernels& kernels = *implementation_.kernels;
   const AgentDiscs of_a(view_, agents_, a), of_b(view_, agents_, b);
-  const double reaches = reaches_of(agents_, pair, double{of_a.reach} + double{of_b.reach});
+  const double max_extents = extents_of(agents_, pair, double{of_a.max_extent} + double{of_b.max_extent});
   // Where discs inside the outlines overlap, the two collide.
   search.clear_bound();
   const CutDiscs in_a = inscribed_discs(view_, agents_.shape[a]),
@@ -119,23 +119,25 @@ void OutlineSource::begin(FreePair& search, Pair pair) const {
     take_discs(kernels, of_a.discs, unmoved_ground, search.a);
     take_discs(kernels, of_b.discs, b_in_a, search.b);
   }
-  if (!by_segments) return search.begin(implementation_, FreeKind::spheres, sphere_slack * reaches, reaches);
+  if (!by_segments)
+    return search.begin(implementation_, FreeKind::spheres, sphere_slack * max_extents, max_extents);
   const double margin = segment_margin<BaseLanes>(view_, agents_.shape[a], agents_.shape[b]);
-  search.begin(implementation_, FreeKind::segments, margin + segment_slack * reaches, reaches);
+  search.begin(implementation_, FreeKind::segments, margin + segment_slack * max_extents, max_extents);
 }
 
 void OutlineSource::begin_walls(FreePair& search, std::uint32_t agent, double slack) const {
   const AgentDiscs of_agent(view_, agents_, agent);
-  const double reaches = double{of_agent.reach} + reach_of(search.b);
+  const double max_extents = double{of_agent.max_extent} + extent_of(search.b);
   const bool by_segments = has_segments(agent) && !has_wide_leaves(agent);
   if (by_segments)
     take_segments(*implementation_.kernels, view_, agents_.shape[agent], unmoved_ground, search.a);
   else
     take_discs(*implementation_.kernels, of_agent.discs, unmoved_ground, search.a);
   if (!by_segments)
-    return search.begin(implementation_, FreeKind::walls, slack + segment_slack * reaches, reaches);
+    return search.begin(implementation_, FreeKind::walls, slack + segment_slack * max_extents, max_extents);
   const double margin = view_.segment_margin[agents_.shape[agent]];
-  search.begin(implementation_, FreeKind::segments, margin + slack + segment_slack * reaches, reaches);
+  search.begin(implementation_, FreeKind::segments, margin + slack + segment_slack * max_extents,
+               max_extents);
 }
 
 float OutlineSource::leave_all(const Agents& agents, Pair pair, double x, double y) const {
@@ -145,8 +147,8 @@ float OutlineSource::leave_all(const Agents& agents, Pair pair, double x, double
   return rest.depth;
 }
 
-double SphereSource::reach(std::uint32_t agent) const {
-  return double{header_of(record(agent)).reach};
+double SphereSource::max_extent(std::uint32_t agent) const {
+  return double{header_of(record(agent)).max_extent};
 }
 
 Heights SphereSource::heights(std::uint32_t agent) const {
@@ -163,16 +165,16 @@ void SphereSource::begin(FreePair& search, Pair pair) const {
   take_record(record(pair.first), unmoved, search.a);
   take_record(
       record(pair.second), [&](const auto& each) { return frame.placed(each); }, search.b);
-  const double reaches = reaches_of(agents_, pair, reach(pair.first) + reach(pair.second));
-  search.begin(implementation_, FreeKind::spheres, sphere_slack * reaches, reaches);
+  const double max_extents = extents_of(agents_, pair, max_extent(pair.first) + max_extent(pair.second));
+  search.begin(implementation_, FreeKind::spheres, sphere_slack * max_extents, max_extents);
   search.clear_bound();
   search.sample();
 }
 
 void SphereSource::begin_walls(FreePair& search, std::uint32_t agent, double slack) const {
   take_record(record(agent), unmoved, search.a);
-  const double reaches = reach(agent) + reach_of(search.b);
-  search.begin(implementation_, FreeKind::walls, slack + segment_slack * reaches, reaches);
+  const double max_extents = max_extent(agent) + extent_of(search.b);
+  search.begin(implementation_, FreeKind::walls, slack + segment_slack * max_extents, max_extents);
 }
 
 }  // namespace bch::detail

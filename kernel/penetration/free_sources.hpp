@@ -32,7 +32,7 @@ class OutlineSource {
 
   const Agents& agents() const { return agents_; }
   /// Returns a distance from an agent's position within which all of it is, metres.
-  double reach(std::uint32_t agent) const;
+  double max_extent(std::uint32_t agent) const;
   /// Returns whether the heights of two agents meet.
   bool may_meet(Pair pair) const;
   static Heights heights(std::uint32_t) { return {0, 0}; }  ///< of an agent in space
@@ -66,7 +66,7 @@ class SphereSource {
       : bodies_(bodies), agents_(agents), implementation_(implementation) {}
 
   const Agents& agents() const { return agents_; }
-  double reach(std::uint32_t agent) const;
+  double max_extent(std::uint32_t agent) const;
   bool may_meet(Pair) const { return true; }
   Heights heights(std::uint32_t agent) const;
   void find_hits(const Agents& agents, std::span<const Pair> pairs, std::uint8_t* hits) const;

@@ -86,7 +86,7 @@ class FreeWaySearch {
  private:
   struct Neighbour {
     std::uint32_t agent;
-    float x, y, reaches;  ///< where it is, in the agent's frame, and how near it matters
+    float x, y, max_extents;  ///< where it is, in the agent's frame, and how near it matters
     bool is_begun;
     std::uint32_t turn;  ///< the last one that it knows
   };
@@ -95,7 +95,7 @@ class FreeWaySearch {
   void begin(std::uint32_t agent, std::span<const std::uint32_t> neighbours);
   bool is_near(const Neighbour& neighbour, float place) const {
     const float m = neighbour.x * x_ + neighbour.y * y_ - place, w = neighbour.x * y_ - neighbour.y * x_;
-    return m * m + w * w <= neighbour.reaches * neighbour.reaches;
+    return m * m + w * w <= neighbour.max_extents * neighbour.max_extents;
   }
   FreePair& begun(std::size_t k);
   /// Returns the search of a neighbour, which knows the direction.
@@ -164,10 +164,10 @@ void FreeWaySearch<Source, Walls>::begin(std::uint32_t agent, std::span<const st
         SpaceFrame(agents(), agent, other)
             .way(agents().x[other] - agents().x[agent], agents().y[other] - agents().y[agent], 0);
     // With room for the rounding of all of it.
-    const double reaches =
-        1.001 * (source_.reach(agent) + source_.reach(other)) + 0x1p-20 * (std::abs(at.x) + std::abs(at.y));
-    neighbours_.push_back(
-        {other, static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(reaches), false, 0});
+    const double max_extents = 1.001 * (source_.max_extent(agent) + source_.max_extent(other)) +
+                               0x1p-20 * (std::abs(at.x) + std::abs(at.y));
+    neighbours_.push_back({other, static_cast<float>(at.x), static_cast<float>(at.y),
+                           static_cast<float>(max_extents), false, 0});
   }
   while (pairs_.size() < neighbours_.size()) pairs_.push_back(std::make_unique<FreePair>());
   turn_ = 0;

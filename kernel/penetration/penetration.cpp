@@ -47,18 +47,18 @@ static_assert(lengthening - 1 >= 0.75 * rounding::unit_roundoff + 4e-10);
 /// The intervals that an agent takes along axes, about its position.
 struct Extents {
   float low[max_axes], high[max_axes];
-  double reach;  ///< as in rounding.hpp
+  double max_extent;  ///< as in rounding.hpp
 };
 
 /// How far A has to move along each axis, or against it, until no disc of B is in its way.
 struct Depths {
   double along[max_axes], against[max_axes];
-  double reach;  ///< of both
+  double max_extent;  ///< of both
 
   explicit Depths(std::uint32_t axes) {
     std::fill_n(along, axes, -std::numeric_limits<double>::infinity());
     std::fill_n(against, axes, -std::numeric_limits<double>::infinity());
-    reach = 0;
+    max_extent = 0;
   }
 };
 
@@ -69,11 +69,11 @@ class AgentSpheres {
       : AgentSpheres(bodies.record(agents.shape[agent])) {}
 
   const CutDiscs discs;
-  const float reach;
+  const float max_extent;
 
  private:
   explicit AgentSpheres(const float* record) noexcept
-      : discs{x_, y_, radius_, header_of(record).sphere_count}, reach(header_of(record).reach) {
+      : discs{x_, y_, radius_, header_of(record).sphere_count}, max_extent(header_of(record).max_extent) {
     for (std::uint32_t slot = 0; slot < discs.count; ++slot) {
       const Sphere sphere = sphere_of(record, slot);
       x_[slot] = sphere.x, y_[slot] = sphere.y, radius_[slot] = sphere.radius;
@@ -106,7 +106,7 @@ void Query<Set, Discs>::measure(std::uint32_t agent, const Axes& axes, Extents& 
   }
   const Discs of(set, agents, agent);
   implementation.kernels->extents(of.discs, x, y, axes.count, extents.low, extents.high);
-  extents.reach = double{of.reach};
+  extents.max_extent = double{of.max_extent};
 }
 
 /// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
@@ -122,7 +122,7 @@ void Query<Set, Discs>::compare(Pair pair, const Axes& axes, const Extents& a, c
     depths.along[i] = std::max(depths.along[i], along);
     depths.against[i] = std::max(depths.against[i], against);
   }
-  depths.reach = std::max(depths.reach, a.reach + b.reach);
+  depths.max_extent = std::max(depths.max_extent, a.max_extent + b.max_extent);
 }
 
 Penetration answer_of(Pair pair, const Axes& axes, bool both_ways, const Depths& depths) noexcept {
@@ -135,7 +135,7 @@ Penetration answer_of(Pair pair, const Axes& axes, bool both_ways, const Depths&
     if (both_ways) offer(depths.against[i], -axes.x[i], -axes.y[i]);
   }
   if (pair.second < pair.first) x = -x, y = -y;
-  const double depth = (least + margin * depths.reach) * lengthening;
+  const double depth = (least + margin * depths.max_extent) * lengthening;
   return {depth > 0 ? rounding::round_up(depth) : 0.0f, x, y};
 }
 

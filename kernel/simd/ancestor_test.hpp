@@ -17,7 +17,7 @@ struct PlacedTrees {
   const Transform& b_in_a;
   const Tree& a;
   const Tree& b;
-  float reach;  ///< of the two shapes together
+  float max_extent;  ///< of the two shapes together
 };
 
 /// Holds the indices of the ancestors of a cut disc, from its parent to the root, sixteen at a time. If there are fewer,
@@ -82,10 +82,10 @@ class AncestorTest {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
-  /// The least depth, in units of the sum of reaches, at which a point inside all discs proves overlaps. If a point
+  /// The least depth, in units of the sum of extents, at which a point inside all discs proves overlaps. If a point
   /// lies that deep in every disc of both paths, each disc of A overlaps each disc of B by at least twice the depth.
   /// Rounding is covered: both calls of contains_point() and the test of two discs start from the same floats, and each of
-  /// these three computations rounds one difference, squares and radii, which are at most the sum of reaches.
+  /// these three computations rounds one difference, squares and radii, which are at most the sum of extents.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *
@@ -121,7 +121,7 @@ class AncestorTest {
     const auto b_in_a = trees_.b_in_a.template in_lanes<Float>();
     const float fraction = a_.radius / (a_.radius + b_.radius);
     const Float x(a_.x + fraction * (b_.x - a_.x)), y(a_.y + fraction * (b_.y - a_.y));
-    const Float margin(static_cast<float>(inside_margin) * trees_.reach), zero(0.0f);
+    const Float margin(static_cast<float>(inside_margin) * trees_.max_extent), zero(0.0f);
     const auto contains_point = [&](Float at_x, Float at_y, Float r) {
       const Float dx = x - at_x, dy = y - at_y, inside = r - margin;
       return Simd::bits(dx * dx + dy * dy <= inside * inside) & Simd::bits(inside >= zero);

@@ -10,7 +10,7 @@ namespace bch::detail {
 /// Holds the thresholds of within() on gaps between discs: two leaves whose gap is at most `leaf` are a hit; blocks whose
 /// gap is at most `bound` are descended into.
 ///
-/// As in layout/base/rounding.hpp, u = 2^-24, and S is the sum of both reaches (largest distances of a shape's points
+/// As in layout/base/rounding.hpp, u = 2^-24, and S is the sum of both extents (largest distances of a shape's points
 /// from its origin). d is the distance that within() was given, r = r_A + r_B, and (x, y) leads from one centre to the
 /// other. Two leaf discs are a hit, without regard to their ancestors, if
 ///
@@ -53,11 +53,11 @@ static_assert(gap_bound_fraction >= (37 + 2 * 23 + 2 * 8 + 21) * rounding::unit_
 static_assert(1 - double{sure_gap} >= (11 + 34 + 1) * rounding::unit_roundoff);
 static_assert(gap_price >= (34 + 3 - (16 - 2)) * rounding::unit_roundoff);
 
-/// Returns the gaps of two shapes whose reaches are S together, metres. (`Simd` gives each instruction set a function
+/// Returns the gaps of two shapes whose extents are S together, metres. (`Simd` gives each instruction set a function
 /// of its own, which the linker cannot merge.)
 template <class Simd>
-Gaps gaps(float leaf, float reach) noexcept {
-  return {leaf, leaf + static_cast<float>(gap_bound_fraction) * (reach + leaf)};
+Gaps gaps(float leaf, float max_extent) noexcept {
+  return {leaf, leaf + static_cast<float>(gap_bound_fraction) * (max_extent + leaf)};
 }
 
 /// Is true for the stages of within(). Those of collide() have no gaps, and do not pay for them.

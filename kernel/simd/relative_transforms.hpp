@@ -48,12 +48,12 @@ class RelativeTransforms {
 
   /// Sets the gaps of all pairs; `begin` is the index of the first one in the batch.
   void set_gaps(const Arguments& in, std::size_t begin) noexcept {
-    // A set of roots alone has no reaches and nothing to bound.
-    const float* const reach = in.shapes->reach;
+    // A set of roots alone has no extents and nothing to bound.
+    const float* const max_extent = in.shapes->max_extent;
     for (std::uint32_t k = 0; k < whole_registers(); ++k) {
       const float distance = in.gaps[begin + (k < size ? k : size - 1)];
       const auto [leaf, bound] =
-          gaps<Simd>(distance, reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);
+          gaps<Simd>(distance, max_extent == nullptr ? 0 : max_extent[shape_a[k]] + max_extent[shape_b[k]]);
       gap[k] = leaf, bound_gap[k] = bound;
     }
   }

@@ -26,10 +26,10 @@ constexpr float longest_chunk = 0.1334f;      ///< seconds
 constexpr double shortest_interval = 0.0045;  ///< seconds, of two keys
 constexpr float same_place = 2.5e-5f;         ///< metres, of the ends of a loop
 
-/// Returns the power of two that coordinates up to a reach are rounded to: each is it times a number of 16 bits.
-double step_of(double reach) {
+/// Returns the power of two that coordinates up to an extent are rounded to: each is it times a number of 16 bits.
+double step_of(double max_extent) {
   int exponent = 0;
-  std::frexp(reach, &exponent);
+  std::frexp(max_extent, &exponent);
   return std::ldexp(1.0, exponent - 15);
 }
 
@@ -63,7 +63,7 @@ class ClipAnimator {
 
   AnimatedChunk chunk(float from, float to) {
     samples_.take(from, to);
-    step_ = step_of(samples_.reach());
+    step_ = step_of(samples_.max_extent());
     times_.clear(), keys_.clear();
     add_key(0, centres(0));
     add_keys(0, samples_.size() - 1);

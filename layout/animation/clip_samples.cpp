@@ -31,7 +31,7 @@ ClipSamples::ClipSamples(const BodyModel& model, std::uint32_t clip)
 
 void ClipSamples::take(float from, float to) {
   samples_.clear();
-  reach_ = 0;
+  max_extent_ = 0;
   add(from);
   const std::vector<float>& keys = bounds_.key_times();
   while (from < to) {
@@ -51,7 +51,7 @@ void ClipSamples::take(float from, float to) {
     }
     from = after;
   }
-  for (Sample& sample : samples_) sample.margin += relative_rounding * reach_;
+  for (Sample& sample : samples_) sample.margin += relative_rounding * max_extent_;
 }
 
 void ClipSamples::add(float seconds) {
@@ -61,14 +61,14 @@ void ClipSamples::add(float seconds) {
   for (std::uint32_t i = 0; i < layout_.sphere_count; ++i)
     sample.spheres.push_back({spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]});
   sample.bottom = std::numeric_limits<double>::infinity(), sample.top = -sample.bottom;
-  const auto reach_to = [&](float x, float y, float z) {
-    reach_ = std::max({reach_, double{std::abs(x)}, double{std::abs(y)}, double{std::abs(z)}});
+  const auto extent_to = [&](float x, float y, float z) {
+    max_extent_ = std::max({max_extent_, double{std::abs(x)}, double{std::abs(y)}, double{std::abs(z)}});
   };
-  for (const Sphere& sphere : sample.spheres) reach_to(sphere.x, sphere.y, sphere.z);
+  for (const Sphere& sphere : sample.spheres) extent_to(sphere.x, sphere.y, sphere.z);
   for (const std::uint32_t corner : model_.corners) {
     const SpaceRow& point = poser_.point(corner);
     sample.corners.push_back({double{point.x}, double{point.y}, double{point.z}});
-    reach_to(point.x, point.y, point.z);
+    extent_to(point.x, point.y, point.z);
     sample.bottom = std::min(sample.bottom, double{point.z});
     sample.top = std::max(sample.top, double{point.z});
   }

@@ -44,7 +44,7 @@ class ClipSamples {
   std::size_t size() const noexcept { return samples_.size(); }
   const Sample& operator[](std::size_t i) const noexcept { return samples_[i]; }
   /// Returns the largest coordinate of a corner or a centre, metres.
-  double reach() const noexcept { return reach_; }
+  double max_extent() const noexcept { return max_extent_; }
   /// Returns the heights of the triangles from the beginning of the first samples that were taken to the end of the last ones, rounded outward.
   const Heights& heights() const noexcept { return heights_; }
   /// Returns the fraction of the time between two other samples that has gone by at one.
@@ -62,7 +62,7 @@ class ClipSamples {
   const BodyLayout layout_;
   SpherePoser poser_;
   std::vector<Sample> samples_;
-  double reach_ = 0;
+  double max_extent_ = 0;
   Heights heights_;
 };
 

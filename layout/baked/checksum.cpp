@@ -41,7 +41,7 @@ void SectionChecksum::take(std::size_t bytes) {
   taken_ += bytes;
 }
 
-void SectionChecksum::reach(std::size_t place) {
+void SectionChecksum::max_extent(std::size_t place) {
   while (taken_ < section_.size() && taken_ <= place) take(std::min(piece, section_.size() - taken_));
 }
 

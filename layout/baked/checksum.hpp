@@ -25,7 +25,7 @@ class SectionChecksum {
   ~SectionChecksum();
 
   /// Takes pieces until the byte at `place` is in one; nothing beyond the section's end.
-  void reach(std::size_t place);
+  void max_extent(std::size_t place);
   /// Takes what is left. Returns: the checksum of the section and of `zeros` bytes of 0 after it, fewer than `alignment`.
   std::uint64_t finish(std::size_t zeros = 0);
 

@@ -126,7 +126,7 @@ class Reader {
     baked::SectionChecksum checksum(section(nodes));
     std::string wrong;
     try {
-      baked::validate(arrays, [&](std::size_t place) { checksum.reach(place * sizeof(float)); });
+      baked::validate(arrays, [&](std::size_t place) { checksum.max_extent(place * sizeof(float)); });
     } catch (const std::invalid_argument& error) {
       wrong = error.what();
     }

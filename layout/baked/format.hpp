@@ -36,7 +36,7 @@
 ///     roots           Root        R       a level's root disc; row is 0 where the cut is that disc; see below
 ///     trees           Tree        R or 0  where a level's nodes are; 0 where every cut is a single disc
 ///     nodes           f32         any     see below
-///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
+///     max_extent      f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
 ///     support         f32         any     rows of 64, supports.hpp; or none. Rows 0 and 1 are plus infinity
 ///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next where there are supports
 ///     profiles        Profile     S or 0  profile.hpp
@@ -80,7 +80,7 @@
 /// shape_set_view.hpp says what the words, and the lists that follow them in their order, mean. The next tree's words
 /// follow the last list.
 ///
-/// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
+/// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, Extents within rounding.hpp's
 /// domain. shape_preconditions() lists all that is checked.
 namespace bch::detail::baked {
 
@@ -108,7 +108,7 @@ enum class Section : std::uint32_t {
   roots,
   trees,
   nodes,
-  reach,
+  max_extent,
   support,
   inscribed,
   profiles,

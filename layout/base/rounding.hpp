@@ -13,7 +13,7 @@
 /// Derives how much discs must be enlarged, so that a query in float never misses a hit of the exact outlines.
 /// tests/kernel/rounding_test.cpp measures every step and tests the whole against exact arithmetic.
 ///
-/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *reach* P is the
+/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *extent* P is the
 /// largest distance of its points from its origin. A disc's *tight* radius r is the largest distance of its node's
 /// primitives from the disc's centre. The centre is taken as stored, in float, so it has no error. A *cut disc* is a
 /// disc of the cut that a query compares: of a node at the level's depth, or of a leaf above it. For shapes A and B at
@@ -139,7 +139,7 @@
 ///
 ///     (segment_price)    (13 + 8.9) u S + 1.5 * 2^-22 S = 1.7e-6 S
 ///
-/// VI. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_reach), so (r_A + r_B)^2 >=
+/// VI. The ends of the range. (underflow) Radii are at least 25 u P >= 1e-12 m (P >= smallest_extent), so (r_A + r_B)^2 >=
 /// 1e-24, while what a square loses below FLT_MIN, flushed to zero or not, is under 1e-37. A product in (turn), (arm) or
 /// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
 /// squared 8e18.
@@ -155,8 +155,8 @@
 /// enclose them with a margin, (conservative_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With
 /// R >= |C - c| + r + margin, a node of A and a disc of B are at most R_A + r_B - margin_A + (query_error) S apart, and
 /// the test accepts what is at most R_A + r_B - (query_error) S apart. So the margin of either shape has to be 2
-/// (query_error) S; the margins of two nodes add up. Margins are fractions of their own shape's reach: they suffice if
-/// S is at most (conservative_ratio) times the lesser reach.
+/// (query_error) S; the margins of two nodes add up. Margins are fractions of their own shape's extent: they suffice if
+/// S is at most (conservative_ratio) times the lesser extent.
 namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
@@ -216,16 +216,16 @@ static_assert(support_error >= support_place + 2 * 2 * support_weight + support_
 
 }  // namespace terms
 
-/// The margin added to every published radius, times the shape's reach: (1'), (halving) and (higher).
+/// The margin added to every published radius, times the shape's extent: (1'), (halving) and (higher).
 constexpr double query_margin = 25.5 * unit_roundoff;
 static_assert(query_margin >= (terms::contact_error + terms::halving + terms::higher) * unit_roundoff);
 
-/// The margin added to every support, times the shape's reach.
+/// The margin added to every support, times the shape's extent.
 constexpr double support_margin = 320 * unit_roundoff;
 static_assert(support_margin >=
               (terms::support_error + terms::query_error + terms::support_float) * unit_roundoff);
 
-/// The distance within which two segments meet: this times the sum of the shapes' reaches, plus the grid steps of
+/// The distance within which two segments meet: this times the sum of the shapes' extents, plus the grid steps of
 /// both.
 constexpr double segment_margin = 13 * unit_roundoff;
 static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
@@ -234,7 +234,7 @@ constexpr double sure_fraction = 0.7;
 static_assert(terms::root_2 * sure_fraction < 1);
 static_assert(sure_fraction * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 
-/// The margin with which nodes enclose their discs, times the shape's reach. It suffices for pairs whose reaches sum
+/// The margin with which nodes enclose their discs, times the shape's extent. It suffices for pairs whose extents sum
 /// to at most conservative_ratio times the lesser one: twice (query_error) of both, and the rounding of the check itself.
 constexpr double conservative_ratio = 3;
 constexpr double conservative_margin = 47 * conservative_ratio * unit_roundoff;
@@ -246,12 +246,12 @@ static_assert(conservative_margin >=
 constexpr double outline_grid_steps = 1.5;
 static_assert(outline_grid_steps >= 2 * (terms::root_2 / 2));
 
-/// The largest gap of a false positive, times the sum of the shapes' reaches: (price).
+/// The largest gap of a false positive, times the sum of the shapes' extents: (price).
 constexpr double price = 3.4e-6;
 static_assert(price >=
               query_margin + (2 + terms::query_error) * unit_roundoff + outline_grid_steps * 0x1p-22);
 
-/// The largest gap of a false positive with exact leaves, times the sum of the shapes' reaches: (segment_price).
+/// The largest gap of a false positive with exact leaves, times the sum of the shapes' extents: (segment_price).
 constexpr double segment_price = 1.7e-6;
 static_assert(segment_price >=
               segment_margin + terms::segment_place * unit_roundoff + outline_grid_steps * 0x1p-22);
@@ -260,8 +260,8 @@ static_assert(support_margin >=
               segment_price + (terms::support_error + terms::support_float) * unit_roundoff);
 
 /// The documented domain; the library throws beyond it.
-constexpr double smallest_reach = 1e-6;   // metres
-constexpr double largest_reach = 1e6;     // metres
+constexpr double smallest_extent = 1e-6;  // metres
+constexpr double largest_extent = 1e6;    // metres
 constexpr double largest_position = 1e9;  // metres
 constexpr double largest_heading = 1e9;   // radians
 

@@ -28,7 +28,7 @@ constexpr std::uint32_t max_spheres = 4096;
 struct BodyHeader {
   float x, y, radius;  ///< a disc that holds all spheres as seen from above
   float bottom, top;   ///< heights that hold all spheres
-  float reach;         ///< no point of a sphere is farther from the origin
+  float max_extent;    ///< no point of a sphere is farther from the origin
   std::uint32_t sphere_count;
   std::uint32_t leaf_size;    ///< 4 or 8
   std::uint32_t leaf_count;   ///< leaf i has slots i * leaf_size .. (i + 1) * leaf_size - 1

@@ -25,21 +25,22 @@ namespace {
 
 constexpr std::uint32_t only_depth = 0;
 
-double reach_of(std::span<const Sphere> spheres) {
-  double reach = 0;
+double extent_of(std::span<const Sphere> spheres) {
+  double max_extent = 0;
   for (const Sphere& s : spheres) {
     const double x = double{s.x}, y = double{s.y}, z = double{s.z};
-    reach = std::max(reach, std::sqrt(x * x + y * y + z * z) + double{s.radius});
+    max_extent = std::max(max_extent, std::sqrt(x * x + y * y + z * z) + double{s.radius});
   }
-  return reach;
+  return max_extent;
 }
 
 void require(std::span<const Sphere> spheres, std::size_t body) {
   const std::string whose = "body set: body " + std::to_string(body);
   require_spheres(spheres, whose);
-  const double reach = reach_of(spheres);
-  if (!(reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
-    throw std::invalid_argument(whose + ": expected a reach of 1e-6 to 1e6 m, found " + shortest(reach));
+  const double max_extent = extent_of(spheres);
+  if (!(max_extent >= rounding::smallest_extent && max_extent <= rounding::largest_extent))
+    throw std::invalid_argument(whose + ": expected an extent of 1e-6 to 1e6 m, found " +
+                                shortest(max_extent));
 }
 
 /// Writes the record of spheres that are given in the order of their numbers.
@@ -47,11 +48,11 @@ void write_record(const BodyLayout& layout, std::span<const Sphere> spheres, flo
   const std::uint32_t slots = layout.slot_count();
   std::vector<float> fields(std::size_t{4} * slots);
   float* const x = fields.data();
-  const double reach = reach_of(spheres);
+  const double max_extent = extent_of(spheres);
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     const Sphere& s = spheres[layout.sphere_in_slot[std::min(slot, layout.sphere_count - 1)]];
     x[slot] = s.x, x[slots + slot] = s.y, x[2 * slots + slot] = s.z;
-    x[3 * slots + slot] = rounding::round_up(double{s.radius} + rounding::sphere_margin * reach);
+    x[3 * slots + slot] = rounding::round_up(double{s.radius} + rounding::sphere_margin * max_extent);
   }
   write_record(layout, {x, x + slots, x + 2 * slots, x + 3 * slots}, record);
 }
@@ -99,7 +100,7 @@ struct BodySet::State {
   /// Takes over what the broad phase reads of a record, and makes it larger by what queries accept beyond the spheres.
   void publish(std::uint32_t body) noexcept {
     const BodyHeader& header = header_of(view.record(body));
-    const float margin = 2 * static_cast<float>(rounding::sphere_margin) * header.reach;
+    const float margin = 2 * static_cast<float>(rounding::sphere_margin) * header.max_extent;
     roots[body] = {header.x, header.y, header.radius + margin, single_disc};
     heights[body] = {header.bottom - margin, header.top + margin};
   }

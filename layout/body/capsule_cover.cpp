@@ -35,15 +35,15 @@ void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, s
   const SpacePoint a = space_point(capsule.a), b = space_point(capsule.b), axis = b - a;
   const double radius = capsule.radius, length = std::sqrt(dot(axis, axis)),
                // A NaN at either end makes the length one, where a maximum may drop it.
-      reach = (length >= 0 ? std::sqrt(std::max(dot(a, a), dot(b, b))) : length) + radius;
-  if (!(radius >= 0 && reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
+      max_extent = (length >= 0 ? std::sqrt(std::max(dot(a, a), dot(b, b))) : length) + radius;
+  if (!(radius >= 0 && max_extent >= rounding::smallest_extent && max_extent <= rounding::largest_extent))
     refuse_capsule(number,
-                   "expected a radius of at least 0 and a reach of 1e-6 to 1e6 m, found a radius of " +
-                       shortest(capsule.radius) + " and a reach of " + shortest(reach));
-  const double spare = cover_rounding * (reach + double{error}), tolerance = double{error} - 2 * spare;
+                   "expected a radius of at least 0 and an extent of 1e-6 to 1e6 m, found a radius of " +
+                       shortest(capsule.radius) + " and an extent of " + shortest(max_extent));
+  const double spare = cover_rounding * (max_extent + double{error}), tolerance = double{error} - 2 * spare;
   if (!(tolerance > 0))
-    refuse_capsule(number, "expected an error above " + shortest(2 * cover_rounding * reach) + " m, found " +
-                               shortest(error));
+    refuse_capsule(number, "expected an error above " + shortest(2 * cover_rounding * max_extent) +
+                               " m, found " + shortest(error));
   const double parts =
       std::max(1.0, std::ceil(length / (2 * std::sqrt(tolerance * (2 * radius + tolerance)))));
   if (parts + 1 + static_cast<double>(spheres.size()) > max_spheres)

@@ -82,13 +82,13 @@ class PrismCover {
  public:
   PrismCover(std::span<const Vec2> contour, const Heights& heights, double error, std::size_t most)
       : bottom_(heights.bottom), top_(heights.top), most_(most) {
-    double reach = 0;
+    double max_extent = 0;
     for (const Vec2& corner : contour) {
       sides_.push_back(plane_point(corner));
-      reach = std::max(reach, length(sides_.back()));
+      max_extent = std::max(max_extent, length(sides_.back()));
     }
-    reach += std::max(std::abs(bottom_), std::abs(top_));
-    spare_ = cover_rounding * (reach + error), error_ = error - 2 * spare_;
+    max_extent += std::max(std::abs(bottom_), std::abs(top_));
+    spare_ = cover_rounding * (max_extent + error), error_ = error - 2 * spare_;
   }
 
   /// Returns spheres, or none where more would be needed than may be.
@@ -201,7 +201,7 @@ std::vector<Sphere> spheres_from_polygons(std::span<const std::vector<Vec2>> pol
   const auto refuse = [](const std::string& expected, const std::string& found) {
     throw std::invalid_argument("spheres of polygons: expected " + expected + ", found " + found);
   };
-  constexpr auto farthest = static_cast<float>(rounding::largest_reach);
+  constexpr auto farthest = static_cast<float>(rounding::largest_extent);
   if (!(heights.bottom < heights.top && heights.bottom >= -farthest && heights.top <= farthest))
     refuse("a bottom below the top, within +-1e6 m",
            shortest(heights.bottom) + " and " + shortest(heights.top));

@@ -6,7 +6,7 @@
 #include "layout/base/rounding.hpp"
 
 /// Proves by how much spheres have to be enlarged so that a query in float never misses what they hold. Notation, names and the
-/// horizontal part are those of layout/base/rounding.hpp; a body's reach P is the largest distance of a point of its spheres from its
+/// horizontal part are those of layout/base/rounding.hpp; a body's extent P is the largest distance of a point of its spheres from its
 /// origin, so that |a| <= P_A and r_A <= P_A for every sphere, and lengths are those of space.
 ///
 /// The query (every kernel and the reference, same operations, same order; no contraction):
@@ -92,7 +92,7 @@ static_assert(48 >= shortened + 4 + of_distance);
 
 }  // namespace terms
 
-/// The margin of bounds of spheres, times the sum of both reaches.
+/// The margin of bounds of spheres, times the sum of both extents.
 constexpr double bound_margin = 400 * unit_roundoff;
 static_assert(bound_margin >= terms::nodes * unit_roundoff &&
               bound_margin >= terms::node_heights * unit_roundoff &&
@@ -106,7 +106,7 @@ constexpr float far_centres = 1 + 0x1p-21f, near_gap = 1 - 0x1.8p-20f;
 static_assert(double{far_centres} - 1 == terms::lifted * unit_roundoff &&
               1 - double{near_gap} == terms::shortened * unit_roundoff);
 
-/// The margin that is added to every sphere's radius, times the body's reach.
+/// The margin that is added to every sphere's radius, times the body's extent.
 constexpr double sphere_margin = terms::sphere_error * unit_roundoff;
 
 // Supports of spheres have the margin of those of discs: spheres that the float test accepts are hardly farther apart.

@@ -10,10 +10,10 @@
 #include "layout/culling/supports.hpp"
 #include "layout/simd/lanes.hpp"
 
-// Bounds are computed in float, a few slots side by side, and rounded outward. With u the unit roundoff and P the reach, of which no
+// Bounds are computed in float, a few slots side by side, and rounded outward. With u the unit roundoff and P the extent, of which no
 // coordinate and no radius is larger:
 //
-//     (reach)     sqrt(x^2 + y^2 + z^2) + r is off by 2 u of the root, 0.5 u for its own rounding and u of the sum:  3.5 u P
+//     (extent)    sqrt(x^2 + y^2 + z^2) + r is off by 2 u of the root, 0.5 u for its own rounding and u of the sum:  3.5 u P
 //     (box)       x - r, x + r:                                                                                     u 2 P
 //     (disc)      the distance of two centres is off by u + 2 u of it, and the sum by u:                            4 u of the sum
 //     (clip)      low - z, the height beyond a band, is off by u (0.5 m + P + overlap), which the slack takes away; and
@@ -29,7 +29,7 @@ constexpr std::uint32_t group = 4;  ///< slots side by side
 static_assert(Float::size == group);
 
 constexpr float unit = 0x1p-24f;
-constexpr float reach_error = 8 * unit, box_error = 4 * unit, disc_error = 8 * unit, clip_error = 8 * unit;
+constexpr float extent_error = 8 * unit, box_error = 4 * unit, disc_error = 8 * unit, clip_error = 8 * unit;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Holds a group of spheres, or of four such groups the ones in the same place.
@@ -50,14 +50,14 @@ Float length(Float x, Float y) {
   return xsimd::sqrt(x * x + y * y);
 }
 
-float reach_of(const SphereSlots& spheres, std::uint32_t slots) {
+float extent_of(const SphereSlots& spheres, std::uint32_t slots) {
   Float most(0.0f);
   for (std::uint32_t i = 0; i < slots; i += group) {
     const Group s = load(spheres, i);
     most = Simd::max(xsimd::sqrt(s.x * s.x + s.y * s.y + s.z * s.z) + s.radius, most);
   }
-  const float reach = largest(most);
-  return reach + reach_error * reach;
+  const float max_extent = largest(most);
+  return max_extent + extent_error * max_extent;
 }
 
 /// Holds low and high ends of boxes, one a lane.
@@ -90,16 +90,16 @@ void bound_all(const SphereSlots& spheres, std::uint32_t slots, BodyHeader& head
   }
   const float radius = largest(farthest);
   header.radius = radius + disc_error * radius;
-  const float margin = box_error * header.reach;
+  const float margin = box_error * header.max_extent;
   header.bottom = Simd::least(boxes.low[2]) - margin;
   header.top = largest(boxes.high[2]) + margin;
 }
 
 /// Writes the nodes of leaves of `parts` groups each, four leaves at a time.
 template <std::uint32_t parts>
-void bound_leaves(const SphereSlots& spheres, std::uint32_t leaves, std::uint32_t stride, float reach,
+void bound_leaves(const SphereSlots& spheres, std::uint32_t leaves, std::uint32_t stride, float max_extent,
                   float* nodes) {
-  const Float margin(box_error * reach), disc_margin(disc_error);
+  const Float margin(box_error * max_extent), disc_margin(disc_error);
   for (std::uint32_t first = 0; first < leaves; first += group) {
     Group columns[group * parts];  ///< the spheres in the same place of the four leaves
     for (std::uint32_t part = 0; part < parts; ++part) {
@@ -130,11 +130,11 @@ void bound_leaves(const SphereSlots& spheres, std::uint32_t leaves, std::uint32_
 }
 
 /// Bounds the parts of a body in a band along all directions.
-void write_supports(const SphereSlots& spheres, std::uint32_t slots, std::uint32_t band, float reach,
+void write_supports(const SphereSlots& spheres, std::uint32_t slots, std::uint32_t band, float max_extent,
                     float* to) {
   const Float low(band == 0 ? -infinity : band_planes[band - 1] - band_overlap);
   const Float high(band + 1 == body_bands ? infinity : band_planes[band] + band_overlap);
-  const Float slack(4 * unit * (1 + reach)), error(clip_error), zero(0.0f);
+  const Float slack(4 * unit * (1 + max_extent)), error(clip_error), zero(0.0f);
   // The parts of spheres in the band are discs as seen from above; whole registers may be read behind them.
   alignas(64) float x[max_spheres + record_line], y[max_spheres + record_line],
       radius[max_spheres + record_line];
@@ -146,17 +146,17 @@ void write_supports(const SphereSlots& spheres, std::uint32_t slots, std::uint32
     alignas(16) float clipped[group];
     const Float root = xsimd::sqrt(xsimd::max(square, zero));
     Simd::store(clipped, root + error * root);
-    const std::uint32_t reaches = Simd::bits(beyond <= s.radius);
+    const std::uint32_t max_extents = Simd::bits(beyond <= s.radius);
     for (std::uint32_t k = 0; k < group; ++k) {
       x[count] = spheres.x[i + k], y[count] = spheres.y[i + k], radius[count] = clipped[k];
-      count += reaches >> k & 1;
+      count += max_extents >> k & 1;
     }
   }
   if (count == 0) {
     std::fill_n(to, support_stride, empty_support);
     return;
   }
-  const Supports heights = supports(x, y, radius, count, double{reach});
+  const Supports heights = supports(x, y, radius, count, double{max_extent});
   std::copy(heights.begin(), heights.end(), to);
 }
 
@@ -169,7 +169,7 @@ void write_record(const BodyLayout& layout, const SphereSlots& spheres, float* r
   header.leaf_size = layout.leaf_size;
   header.leaf_count = layout.leaf_count();
   header.node_stride = stride;
-  header.reach = reach_of(spheres, slots);
+  header.max_extent = extent_of(spheres, slots);
   bound_all(spheres, slots, header);
   std::copy_n(reinterpret_cast<const float*>(&header), record_line, record);
   for (std::uint32_t i = 0; i < core_spheres; ++i) {
@@ -179,9 +179,9 @@ void write_record(const BodyLayout& layout, const SphereSlots& spheres, float* r
     core[2 * core_spheres] = spheres.z[slot], core[3 * core_spheres] = spheres.radius[slot];
   }
   for (std::uint32_t band = 0; band < body_bands; ++band)
-    write_supports(spheres, slots, band, header.reach, record + record_supports + band * support_stride);
+    write_supports(spheres, slots, band, header.max_extent, record + record_supports + band * support_stride);
   (layout.leaf_size == group ? bound_leaves<1> : bound_leaves<2>)(spheres, header.leaf_count, stride,
-                                                                  header.reach, record + record_nodes);
+                                                                  header.max_extent, record + record_nodes);
   float* leaf = record + layout.record_leaves();
   for (std::uint32_t first = 0; first < slots; first += layout.leaf_size)
     for (const float* const of : {spheres.x, spheres.y, spheres.z, spheres.radius})

@@ -36,7 +36,7 @@ class CutLanes {
   }
 
   /// Writes the extents of a run of discs along support_directions directions, to 6 units in the last place of its
-  /// reach. The arguments are the directions of the first quadrant; the others are these rotated by 1 to 3 quarter
+  /// extent. The arguments are the directions of the first quadrant; the others are these rotated by 1 to 3 quarter
   /// turns, so that they share products.
   static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {
     for (std::size_t k = 0; k < quadrant; k += Batch::size) {

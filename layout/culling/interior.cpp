@@ -148,7 +148,7 @@ std::uint32_t InteriorBuilder::offer_measured() {
   return candidates_.count;
 }
 
-Interior InteriorBuilder::build(const Outline& outline, double reach) {
+Interior InteriorBuilder::build(const Outline& outline, double max_extent) {
   const Contour contour = largest_contour(outline);
   Interior result;
   result.x.fill(std::numeric_limits<float>::infinity());
@@ -166,7 +166,7 @@ Interior InteriorBuilder::build(const Outline& outline, double reach) {
 
   std::uint32_t discs = 0;
   for (std::uint32_t k = 0; k < chosen_.count; ++k) {
-    const double radius = depths_.distance[k] * (1 - 0x1p-23) - rounding::query_margin * reach;
+    const double radius = depths_.distance[k] * (1 - 0x1p-23) - rounding::query_margin * max_extent;
     if (!(is_inside(depths_.winding[k]) && radius > 0)) continue;
     result.x[discs] = stored_.x[k], result.y[discs] = stored_.y[k];
     result.radius[discs++] = static_cast<float>(radius);
@@ -174,8 +174,8 @@ Interior InteriorBuilder::build(const Outline& outline, double reach) {
   return result;
 }
 
-Interior interior(const Outline& outline, double reach) {
-  return InteriorBuilder().build(outline, reach);
+Interior interior(const Outline& outline, double max_extent) {
+  return InteriorBuilder().build(outline, max_extent);
 }
 
 }  // namespace bch::detail

@@ -57,11 +57,11 @@ class InteriorBuilder {
   explicit InteriorBuilder(const BuildImplementation& implementation);
 
   /// Finds the inscribed discs and the extreme points of an outline.
-  /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `reach` is that of the shape, metres.
+  /// Shapes:  validate(outline) does not throw; contours are counter-clockwise. `max_extent` is that of the shape, metres.
   ///          If no disc larger than the rounding fits, there are none; slivers about 60 times as long as wide may
   ///          have fewer discs than fit.
   /// Cost:    linear in the points of the largest contour.
-  Interior build(const Outline& outline, double reach);
+  Interior build(const Outline& outline, double max_extent);
 
  private:
   using Contour = std::span<const Vec2>;
@@ -90,6 +90,6 @@ class InteriorBuilder {
 };
 
 /// Chooses the inscribed discs of one shape.
-Interior interior(const Outline& outline, double reach);
+Interior interior(const Outline& outline, double max_extent);
 
 }  // namespace bch::detail

@@ -115,7 +115,8 @@ struct Segment {
 /// How far the contour's inside goes on from the centre, sector by sector.
 class Inside {
  public:
-  Inside(Polygon contour, PlanePoint centre, double reach) : to_(boundaries()), wider_(margin * reach) {
+  Inside(Polygon contour, PlanePoint centre, double max_extent)
+      : to_(boundaries()), wider_(margin * max_extent) {
     square_.fill(infinity);
     bool inside = false;
     Vec2 begin = contour.back();
@@ -185,7 +186,7 @@ std::array<double, profile_sectors> extents(const Interior& interior, PlanePoint
 
 }  // namespace
 
-Profile profile(const Outline& outline, const Interior& interior, double reach) {
+Profile profile(const Outline& outline, const Interior& interior, double max_extent) {
   Profile result{};
   for (Sector& each : result.sectors) each = {-infinity, infinity, -infinity, infinity};
   if (outline.contours() == 0) return result;
@@ -193,17 +194,17 @@ Profile profile(const Outline& outline, const Interior& interior, double reach) 
   const PlanePoint exact = centroid(contour);
   result.x = static_cast<float>(exact.x), result.y = static_cast<float>(exact.y);
   const PlanePoint centre = plane_point({result.x, result.y});
-  const Inside inside(contour, centre, reach);
+  const Inside inside(contour, centre, max_extent);
   for (std::uint32_t k = 0; k < profile_sectors; ++k) result.sectors[k].inner = inside.inner(k);
   if (outline.contours() > 1) return result;
   const auto behind = extents(interior, centre);
   for (std::uint32_t k = 0; k < profile_sectors; ++k)
-    if (behind[k] > 0) result.sectors[k].extent = static_cast<float>(behind[k] - margin * reach);
+    if (behind[k] > 0) result.sectors[k].extent = static_cast<float>(behind[k] - margin * max_extent);
   return result;
 }
 
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
-            double reach) {
+            double max_extent) {
   const Boundaries& to = boundaries();
   std::array<float, profile_sectors> heights;
   CutLanes<BaseLanes>::heights({x, y, radius, count}, to.cosine.data(), to.sine.data(), heights.data());
@@ -221,14 +222,15 @@ Outer outer(const Profile& profile, const float* x, const float* y, const float*
         std::sqrt((right * right + left * left - 2 * right * left * cosine) * to.over_square_sine[k]);
     const double larger = right < left ? left : right, smaller = right < left ? right : left;
     const double farthest = smaller < larger * cosine ? larger : corner;
-    result[k] = static_cast<float>(farthest + rounding::support_margin * reach);
+    result[k] = static_cast<float>(farthest + rounding::support_margin * max_extent);
   }
   return result;
 }
 
-Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double reach) {
+Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double max_extent) {
   const float *const x = points.x.data(), *const y = points.y.data(), *const radius = points.radius.data();
-  return {supports(x, y, radius, points.count(), reach), outer(profile, x, y, radius, points.count(), reach)};
+  return {supports(x, y, radius, points.count(), max_extent),
+          outer(profile, x, y, radius, points.count(), max_extent)};
 }
 
 /// Between two directions a bound is that of the corner of two lines. Lines that are farther by d have a corner that is farther by d over

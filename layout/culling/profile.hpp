@@ -28,15 +28,15 @@ namespace bch::detail {
 /// Returns: the profile of an outline, with Sector::outer and Sector::shallow_outer left at infinity. `inner` is minus
 ///          infinity without an outline and in sectors where the centre has no area of the outline around it. `extent`
 ///          is minus infinity without an outline or with several contours, of which nothing is known.
-/// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `reach`
+/// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `max_extent`
 ///          that of the shape, metres.
-Profile profile(const Outline& outline, const Interior& interior, double reach);
+Profile profile(const Outline& outline, const Interior& interior, double max_extent);
 
 /// Holds, per sector, an upper bound of a support function about a profile's centre over the directions of the
 /// sector. outer() computes the bounds of one or more discs of a cut.
 using Outer = std::array<float, profile_sectors>;
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
-            double reach);
+            double max_extent);
 
 /// Holds the bounds of a shape about its profile's centre, along directions and by sectors.
 struct Bounds {
@@ -44,8 +44,8 @@ struct Bounds {
   Outer outer;
 };
 
-/// Bounds the points of an outline that has contours. `reach` is that of the shape, metres.
-Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double reach);
+/// Bounds the points of an outline that has contours. `max_extent` is that of the shape, metres.
+Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double max_extent);
 
 /// Returns how far discs protrude from smaller bounds, metres. The smaller bounds plus that distance enclose the
 /// discs, also between two directions.

@@ -36,10 +36,11 @@ struct PointDiscs {
   std::vector<float> x, y, radius;
 };
 
-/// Computes the supports of discs. `reach` is that of rounding.hpp, in metres.
-Supports supports(std::span<const Disc> discs, double reach);
+/// Computes the supports of discs. `max_extent` is that of rounding.hpp, in metres.
+Supports supports(std::span<const Disc> discs, double max_extent);
 
 /// Computes the supports of one or more discs in parallel arrays.
-Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach);
+Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count,
+                  double max_extent);
 
 }  // namespace bch::detail

@@ -85,7 +85,7 @@ void sizes(const ShapeArrays& a) {
   require_size("roots", a.roots.size(), roots);
   const bool roots_only = a.trees.empty(), culling = !a.support.empty();
   require_size("trees", a.trees.size(), roots_only ? 0 : roots);
-  require_size("reach", a.reach.size(), roots_only ? 0 : shapes);
+  require_size("max_extent", a.max_extent.size(), roots_only ? 0 : shapes);
   if (roots_only) {
     require_size("nodes", a.nodes.size(), 0);
     require_size("support", a.support.size(), 0);
@@ -141,10 +141,10 @@ void infinite_rows(const ShapeArrays& a) {
               [](float height) { return height == infinity; });
 }
 
-void reaches(const ShapeArrays& a) {
-  require_all("reach", a.reach, "outside the domain", [](float reach) {
-    return static_cast<double>(reach) >= rounding::smallest_reach &&
-           static_cast<double>(reach) <= rounding::largest_reach;
+void max_extents(const ShapeArrays& a) {
+  require_all("max_extent", a.max_extent, "outside the domain", [](float max_extent) {
+    return static_cast<double>(max_extent) >= rounding::smallest_extent &&
+           static_cast<double>(max_extent) <= rounding::largest_extent;
   });
 }
 

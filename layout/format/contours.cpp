@@ -8,7 +8,7 @@
 
 namespace bch::detail {
 
-double reach(std::span<const Vec2> points) {
+double max_extent(std::span<const Vec2> points) {
   double square = 0;
   for (const Vec2& p : points) {
     const double x = p.x, y = p.y;

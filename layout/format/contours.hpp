@@ -10,7 +10,7 @@
 namespace bch::detail {
 
 /// Returns the largest distance of a point from the origin, or slightly more.
-double reach(std::span<const Vec2> points);
+double max_extent(std::span<const Vec2> points);
 
 /// Returns the contour with the largest area, the first of several.
 /// Precondition: there is a contour.

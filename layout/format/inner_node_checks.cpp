@@ -138,7 +138,7 @@ void inner_nodes(const ShapeArrays& a, LevelNodes& level) {
     return;
   }
   const auto slack = static_cast<float>(rounding::conservative_margin + 49 * rounding::unit_roundoff);
-  PendingNodes open(nodes, level.open_nodes, slack * a.reach[level.root / a.depths.size()]);
+  PendingNodes open(nodes, level.open_nodes, slack * a.max_extent[level.root / a.depths.size()]);
   for (std::uint32_t k = 0; k < nodes.count(); ++k) open.add(k);
   if (nodes.is_above_disc(nodes.count())) reject_inner(nodes, nodes.count(), "padding is above a disc");
   const std::uint32_t top = open.end_all(nodes.count());

@@ -17,8 +17,8 @@ const Tree& tree(const ShapeArrays& a, const LevelNodes& level) {
 bool is_leaf_block(const Tree& tree) {
   return tree.top >= leaf_bit;
 }
-float reach(const ShapeArrays& a, const LevelNodes& level) {
-  return a.reach[level.root / a.depths.size()];
+float max_extent(const ShapeArrays& a, const LevelNodes& level) {
+  return a.max_extent[level.root / a.depths.size()];
 }
 std::uint32_t name_of(const float* block, std::uint32_t lane) {
   return std::bit_cast<std::uint32_t>(block[block_names + lane]);
@@ -57,9 +57,9 @@ void require_padding_last(const float* x, std::uint64_t place) {
   if (late != 0) reject("nodes", place, "padding before a disc");
 }
 
-/// The smallest radius that discs of this reach have, by rounding.hpp, with room for how it is rounded.
-float smallest_radius(float reach) {
-  return static_cast<float>(24 * rounding::unit_roundoff) * reach;
+/// The smallest radius that discs of this extent have, by rounding.hpp, with room for how it is rounded.
+float smallest_radius(float max_extent) {
+  return static_cast<float>(24 * rounding::unit_roundoff) * max_extent;
 }
 
 constexpr const char* not_a_disc = "holds a disc that is none, or smaller than the rounding of its shape";
@@ -179,7 +179,7 @@ void padding(const ShapeArrays& a, LevelNodes& level) {
 
 void numbers(const ShapeArrays& a, LevelNodes& level) {
   const float* nodes = a.nodes.data();
-  const float least = smallest_radius(reach(a, level));
+  const float least = smallest_radius(max_extent(a, level));
   if (!is_leaf_block(tree(a, level)))
     for (std::uint64_t block = tree(a, level).top; block < level.discs; block += block_floats)
       require_eight_discs(nodes + block, least, block);
@@ -204,13 +204,13 @@ void single_discs(const ShapeArrays& a, LevelNodes& level) {
     reject("roots", level.root, "not its single disc");
 }
 
-void reach_of_level(const ShapeArrays& a, LevelNodes& level) {
+void extent_of_level(const ShapeArrays& a, LevelNodes& level) {
   const Root& root = a.roots[level.root];
   constexpr float most =
       64;  // of what a shape extends to: hierarchies of one's own may say more than they have
   const float extent = std::abs(root.x) + std::abs(root.y) + root.radius;
-  if (reach(a, level) > most * extent)
-    reject("reach", level.root / a.depths.size(), "far beyond root " + std::to_string(level.root));
+  if (max_extent(a, level) > most * extent)
+    reject("max_extent", level.root / a.depths.size(), "far beyond root " + std::to_string(level.root));
 }
 
 void segments_of_leaves(const ShapeArrays& a, LevelNodes& level) {

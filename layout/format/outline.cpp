@@ -37,10 +37,10 @@ void require_finite(std::span<const Vec2> points) {
 
 /// Whiskers and contours of a few grid steps have no area, or by the rounding of their points to the grid and of the sum
 /// less than none: only what is not explained by that is clockwise.
-void require_not_clockwise(const Outline& outline, std::size_t c, double twice_area, double reach) {
+void require_not_clockwise(const Outline& outline, std::size_t c, double twice_area, double max_extent) {
   const auto contour = outline.contour(c);
   const auto count = static_cast<double>(contour.size());
-  if (twice_area >= -0x1p-52 * count * count * reach * reach) return;
+  if (twice_area >= -0x1p-52 * count * count * max_extent * max_extent) return;
   const double by_grid =
       2 * rounding::outline_grid_steps * static_cast<double>(outline.grid_step) * length(contour);
   if (twice_area >= -by_grid) return;
@@ -94,7 +94,7 @@ double validate(const Outline& outline) {
   for (std::size_t c = 0; c + 1 < begin.size(); ++c)
     if (begin[c] >= begin[c + 1])
       throw std::invalid_argument("outline: contour " + std::to_string(c) + " is empty");
-  const double size = reach(outline.points);
+  const double size = max_extent(outline.points);
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const double area = twice_area(outline.contour(c));
     // What is not finite makes the area so.
@@ -103,11 +103,11 @@ double validate(const Outline& outline) {
   }
   if (!is_finite(outline.grid_step) || outline.grid_step < 0)
     throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step));
-  if (size < rounding::smallest_reach || size > rounding::largest_reach)
-    throw std::invalid_argument("outline: reach " + shortest(size) + " m is outside 1e-6 to 1e6 m");
+  if (size < rounding::smallest_extent || size > rounding::largest_extent)
+    throw std::invalid_argument("outline: extent " + shortest(size) + " m is outside 1e-6 to 1e6 m");
   if (static_cast<double>(outline.grid_step) > size)
     throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step) +
-                                " m is above the reach, " + shortest(size) + " m");
+                                " m is above the extent, " + shortest(size) + " m");
   return size;
 }
 

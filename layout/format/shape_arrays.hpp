@@ -19,7 +19,7 @@ struct ShapeArrays {
   std::span<const std::uint32_t> depths;  ///< cut depths, ascending: one per level, 1 to 255 of them
   std::span<const Root> roots;
   std::span<const Tree> trees;
-  std::span<const float> nodes, reach, support;
+  std::span<const float> nodes, max_extent, support;
   std::span<const DiscBlock> inscribed;
   std::span<const Profile> profiles;
   std::span<const ContourRange> shape_contours;
@@ -40,7 +40,7 @@ void for_each_array(Visit visit, Sets&... sets) {
   visit("roots", sets.roots...);
   visit("trees", sets.trees...);
   visit("nodes", sets.nodes...);
-  visit("reach", sets.reach...);
+  visit("max_extent", sets.max_extent...);
   visit("support", sets.support...);
   visit("inscribed", sets.inscribed...);
   visit("profiles", sets.profiles...);

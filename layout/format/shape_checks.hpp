@@ -26,7 +26,7 @@ void heights(const ShapeArrays& a);
 void rows(const ShapeArrays& a);
 void single_depth(const ShapeArrays& a);
 void infinite_rows(const ShapeArrays& a);
-void reaches(const ShapeArrays& a);
+void max_extents(const ShapeArrays& a);
 void roots(const ShapeArrays& a);
 void supports(const ShapeArrays& a);
 void inscribed(const ShapeArrays& a);
@@ -47,7 +47,7 @@ void number_of_leaf_blocks(const ShapeArrays& a, LevelNodes& level);
 void padding(const ShapeArrays& a, LevelNodes& level);
 void numbers(const ShapeArrays& a, LevelNodes& level);
 void single_discs(const ShapeArrays& a, LevelNodes& level);
-void reach_of_level(const ShapeArrays& a, LevelNodes& level);
+void extent_of_level(const ShapeArrays& a, LevelNodes& level);
 void segments_of_leaves(const ShapeArrays& a, LevelNodes& level);
 
 // These functions check the inner nodes of a level: inner_node_checks.cpp.
@@ -55,8 +55,8 @@ void inner_nodes(const ShapeArrays& a, LevelNodes& level);
 void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level);
 void outer_radii(const ShapeArrays& a, LevelNodes& level);
 
-/// The limit of coordinates, radii and supports, metres: a few times the largest reach, because supports and outer
-/// radii exceed the reach.
+/// The limit of coordinates, radii and supports, metres: a few times the largest extent, because supports and outer
+/// radii exceed the extent.
 constexpr float largest_length = 1e7f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t top_bit = 0x80000000;

@@ -143,9 +143,9 @@ struct ShapeSetView {
 
   const std::uint32_t* depths;  ///< one per level
   const Root* roots;
-  const Tree* trees;   ///< per root; null, like `nodes`, if every level is a single disc
-  const float* nodes;  ///< of all levels; see Tree
-  const float* reach;  ///< per shape, metres, rounded up; null if `trees` is
+  const Tree* trees;        ///< per root; null, like `nodes`, if every level is a single disc
+  const float* nodes;       ///< of all levels; see Tree
+  const float* max_extent;  ///< per shape, metres, rounded up; null if `trees` is
 
   // Null if the plan has no culling data.
   const float* support;        ///< rows of support_stride floats; those before first_row are infinite

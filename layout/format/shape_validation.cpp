@@ -26,7 +26,7 @@ constexpr Precondition all[] = {
      single_depth, nullptr},
     {"infinite rows", "The first rows of supports, which stand for none, are infinite.", infinite_rows,
      nullptr},
-    {"reaches", "Reaches are within the library's domain.", reaches, nullptr},
+    {"extents", "Extents are within the library's domain.", max_extents, nullptr},
     {"roots", "Root discs are numbers of at most 1e7 m with a radius above 0.", roots, nullptr},
     {"supports", "Supports are numbers of at most 1e7 m.", supports, nullptr},
     {"inscribed discs", "Inscribed discs are such numbers, or padding.", inscribed, nullptr},
@@ -66,9 +66,9 @@ constexpr Precondition all[] = {
      nullptr, numbers},
     {"single discs", "A level is marked as a single disc where it is one, and then that is its root.",
      nullptr, single_discs},
-    {"reach of a level",
-     "No reach is far beyond the root discs: what only bounds an answer has a slack in proportion.", nullptr,
-     reach_of_level},
+    {"extent of a level",
+     "No extent is far beyond the root discs: what only bounds an answer has a slack in proportion.", nullptr,
+     extent_of_level},
     {"inner nodes",
      "Links of inner nodes make a tree, which every way up leaves at the root disc; no node is larger than "
      "its children "

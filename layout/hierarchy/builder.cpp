@@ -64,9 +64,9 @@ void clear(Hierarchy& hierarchy) {
 
 }  // namespace
 
-void require_reach(double reach) {
-  if (!(reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
-    throw std::invalid_argument("hierarchy: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
+void require_extent(double max_extent) {
+  if (!(max_extent >= rounding::smallest_extent && max_extent <= rounding::largest_extent))
+    throw std::invalid_argument("hierarchy: extent " + shortest(max_extent) + " m is outside 1e-6 to 1e6 m");
 }
 
 void require_threshold(float threshold) {
@@ -78,12 +78,12 @@ void require_threshold(float threshold) {
 void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                                std::uint32_t deepest) {
   clear(hierarchy);
-  const double reach = validate(outline);
+  const double max_extent = validate(outline);
   require_threshold(threshold);
   if (rule != SplitRule::centroid && rule != SplitRule::centre)
     throw std::invalid_argument("hierarchy: no split rule is " + std::to_string(static_cast<int>(rule)));
-  hierarchy.reach = reach;
-  begin(reach, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
+  hierarchy.max_extent = max_extent;
+  begin(max_extent, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
         outline.points.size());
   for (std::size_t c = 0; c < outline.contours(); ++c) items_.add_contour(outline.contour(c), even_halves_);
   grow(rule == SplitRule::centre, deepest);
@@ -95,7 +95,7 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
                                  Hierarchy& hierarchy) {
   clear(hierarchy);
   if (triangles.empty()) throw std::invalid_argument("hierarchy: no triangles");
-  hierarchy.reach = 0;
+  hierarchy.max_extent = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const std::uint32_t vertex : triangles[t]) {
       if (vertex >= vertices.size())
@@ -103,10 +103,10 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
                                     std::to_string(vertex));
       if (!is_finite(vertices[vertex].x) || !is_finite(vertices[vertex].y))
         throw std::invalid_argument("hierarchy: vertex " + std::to_string(vertex) + " is not finite");
-      hierarchy.reach = std::max(hierarchy.reach, reach(vertices.subspan(vertex, 1)));
+      hierarchy.max_extent = std::max(hierarchy.max_extent, max_extent(vertices.subspan(vertex, 1)));
     }
-  require_reach(hierarchy.reach);
-  begin(hierarchy.reach, 0, 0, triangles.size());
+  require_extent(hierarchy.max_extent);
+  begin(hierarchy.max_extent, 0, 0, triangles.size());
   for (const auto& [a, b, c] : triangles) items_.add_triangle({vertices[a], vertices[b], vertices[c]});
   grow(false, all_depths);
   publish(hierarchy);
@@ -115,12 +115,12 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
 void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy) {
   clear(hierarchy);
   if (points.empty()) throw std::invalid_argument("hierarchy: no points");
-  hierarchy.reach = reach(points);
-  require_reach(hierarchy.reach);
-  if (!(grid_step >= 0) || widened(grid_step) > hierarchy.reach)
+  hierarchy.max_extent = max_extent(points);
+  require_extent(hierarchy.max_extent);
+  if (!(grid_step >= 0) || widened(grid_step) > hierarchy.max_extent)
     throw std::invalid_argument("hierarchy: grid step " + shortest(grid_step) +
-                                " m is not from 0 to the reach, " + shortest(hierarchy.reach) + " m");
-  begin(hierarchy.reach, rounding::outline_grid_steps * widened(grid_step), 0, 0);
+                                " m is not from 0 to the extent, " + shortest(hierarchy.max_extent) + " m");
+  begin(hierarchy.max_extent, rounding::outline_grid_steps * widened(grid_step), 0, 0);
   order_.clear();
   unsolved_.push_back({add_node(), 0, 0});
   sets_.assign(1, {0, static_cast<std::uint32_t>(points.size())});
@@ -128,15 +128,15 @@ void HierarchyBuilder::root(std::span<const Vec2> points, float grid_step, Hiera
   publish(hierarchy);
 }
 
-void HierarchyBuilder::begin(double reach, double margin, double threshold, std::size_t items) {
-  margin_ = margin + rounding::query_margin * reach;
+void HierarchyBuilder::begin(double max_extent, double margin, double threshold, std::size_t items) {
+  margin_ = margin + rounding::query_margin * max_extent;
   threshold_ = threshold;
   // Half the diagonal of its box bounds a node's radius, but for the rounding of the centre.
-  const double half = std::max(0.0, threshold * (1 - 0x1p-40) - 2 * rounding::unit_roundoff * reach);
+  const double half = std::max(0.0, threshold * (1 - 0x1p-40) - 2 * rounding::unit_roundoff * max_extent);
   sure_square_diagonal_ = 4 * half * half;
   longest_square_length_ = largest_square(2 * threshold);
   items_.begin(items);
-  even_halves_.begin(2 * threshold, reach);
+  even_halves_.begin(2 * threshold, max_extent);
   unsolved_.clear();
   node_count_ = 0;
 }

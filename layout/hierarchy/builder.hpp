@@ -35,10 +35,10 @@ class HierarchyBuilder {
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
-  /// Makes only the root of contour(). Its reach and its disc depend on a few points of the outline, which lie on the
+  /// Makes only the root of contour(). Its extent and its disc depend on a few points of the outline, which lie on the
   /// convex hull. `points` has to contain all of these, and may contain others. After an exception the hierarchy has
   /// no nodes.
-  /// Errors:  throws std::invalid_argument if there are no points or the reach is outside the domain of rounding.hpp.
+  /// Errors:  throws std::invalid_argument if there are no points or the extent is outside the domain of rounding.hpp.
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
 
   /// Builds the hierarchy of projected_hierarchy() (paper_hierarchies.hpp), over triangles seen from above, without
@@ -75,7 +75,7 @@ class HierarchyBuilder {
     std::uint32_t begin, end;  ///< places in order_
   };
 
-  void begin(double reach, double margin, double threshold, std::size_t items);
+  void begin(double max_extent, double margin, double threshold, std::size_t items);
   void grow(bool through_centre, std::uint32_t deepest);
   bool add_node(const PendingNode& pending);
   void add_lone_segment(std::uint32_t at, std::uint32_t below);
@@ -117,8 +117,8 @@ class HierarchyBuilder {
   EnclosingDiscs solver_;
 };
 
-/// Throws std::invalid_argument on a reach outside rounding.hpp's domain.
-void require_reach(double reach);
+/// Throws std::invalid_argument on an extent outside rounding.hpp's domain.
+void require_extent(double max_extent);
 /// Throws std::invalid_argument unless the threshold is positive and finite.
 void require_threshold(float threshold);
 

@@ -73,7 +73,7 @@ void add_nodes(std::span<const Disc> discs, Hierarchy& hierarchy) {
                    of_others = of_leaves + rounding::conservative_margin + 4 * rounding::unit_roundoff;
   const std::size_t node = hierarchy.nodes.size();
   const bool is_leaf = discs.size() == 1;
-  hierarchy.nodes.push_back({smallest_disc(discs, (is_leaf ? of_leaves : of_others) * hierarchy.reach)});
+  hierarchy.nodes.push_back({smallest_disc(discs, (is_leaf ? of_leaves : of_others) * hierarchy.max_extent)});
   if (is_leaf) return;
   const std::size_t first = best_split(discs);
   add_nodes(discs.first(first), hierarchy);
@@ -88,17 +88,17 @@ Hierarchy disc_hierarchy(std::span<const Disc> discs) {
   if (discs.empty() || discs.size() > most)
     throw std::invalid_argument("shape: " + std::to_string(discs.size()) + " discs, not 1 to " +
                                 std::to_string(most));
-  double reach = 0;
+  double max_extent = 0;
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const auto& [x, y, radius] = discs[i];
     if (!(radius > 0) || !is_finite(x) || !is_finite(y) || !is_finite(radius))
       throw std::invalid_argument("shape: disc " + std::to_string(i) + " of " + shortest(radius) + " m at (" +
                                   shortest(x) + ", " + shortest(y) + ") m");
-    reach = std::max(reach, length(x, y) + double{radius});
+    max_extent = std::max(max_extent, length(x, y) + double{radius});
   }
-  require_reach(reach);
+  require_extent(max_extent);
   Hierarchy hierarchy;
-  hierarchy.reach = reach;
+  hierarchy.max_extent = max_extent;
   add_nodes(discs, hierarchy);
   return hierarchy;
 }

@@ -45,9 +45,9 @@ void write_piece(Point a, Point b, const OutwardRadii& radii, Hierarchy::Node* n
   }
 }
 
-/// The slack for halving by length, in units of u times the reach. After three halvings a midpoint is off by
+/// The slack for halving by length, in units of u times the extent. After three halvings a midpoint is off by
 /// 2.34 u (rounding.hpp), and so is a piece's end, which is at most 2 sqrt(2) u, so that a length is off by
-/// 5.7 u. A length in float is off by 2.5 u of at most 2.83 times the reach, and the limits, where lengths
+/// 5.7 u. A length in float is off by 2.5 u of at most 2.83 times the extent, and the limits, where lengths
 /// come near them, by 2.9 u. Of a piece that is surely long 8 u remain, so that its midpoint is neither end,
 /// which takes 2.9 u.
 constexpr double piece_end = 2 * rounding::terms::root_2, float_length = 2.5 * 2.83, limits = 2.9,
@@ -58,8 +58,8 @@ static_assert(slack_in_u >= 2 * piece_end + float_length + limits + remains);
 
 }  // namespace
 
-void EvenHalves::begin(double longest, double reach) {
-  const double slack = slack_in_u * rounding::unit_roundoff * reach;
+void EvenHalves::begin(double longest, double max_extent) {
+  const double slack = slack_in_u * rounding::unit_roundoff * max_extent;
   for (std::size_t k = 0; k < surely_long_.size(); ++k) {
     const double pieces = 1 << k;
     const auto limit = [&](double length) {

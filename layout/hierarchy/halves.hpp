@@ -23,8 +23,8 @@ class EvenHalves {
   static constexpr int uneven = max_halvings + 1;
   static constexpr std::uint32_t nodes(int halvings) { return (2u << halvings) - 1; }
 
-  /// Sets the length beyond which pieces are halved and the reach of the shape, metres.
-  void begin(double longest, double reach);
+  /// Sets the length beyond which pieces are halved and the extent of the shape, metres.
+  void begin(double longest, double max_extent);
   /// Writes, for four lengths rounded to float, how often segments of these lengths are halved; `uneven` if that is
   /// more than max_halvings or rounding may decide.
   void write_halvings(const float* lengths, std::uint8_t* halvings) const;

@@ -35,8 +35,8 @@ namespace {
 void validate(const Hierarchy& hierarchy) {
   const FloatingPointStateGuard floats;
   if (hierarchy.nodes.empty()) throw std::invalid_argument("hierarchy: it has no nodes");
-  require_reach(hierarchy.reach);
-  const auto farthest = static_cast<float>(hierarchy.reach * (1 + 0x1p-20));
+  require_extent(hierarchy.max_extent);
+  const auto farthest = static_cast<float>(hierarchy.max_extent * (1 + 0x1p-20));
   const std::size_t count = hierarchy.nodes.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Hierarchy::Node& node = hierarchy.nodes[i];
@@ -94,9 +94,9 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
 Hierarchy fixed_cylinder(float radius) {
   const FloatingPointStateGuard floats;
   const double size = radius;
-  require_reach(size);
+  require_extent(size);
   Hierarchy hierarchy;
-  hierarchy.reach = size;
+  hierarchy.max_extent = size;
   Hierarchy::Node root;
   root.disc = {0, 0, rounding::round_up(size * (1 + rounding::query_margin))};
   hierarchy.nodes.push_back(root);

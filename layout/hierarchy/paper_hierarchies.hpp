@@ -27,7 +27,7 @@ Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule r
 /// vertices. A triangle goes to the side of its centroid and is never cut. A leaf is a single triangle.
 /// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, a vertex of a triangle
-///          is not finite, or the reach is outside 1e-6 to 1e6 m. Vertices without triangles are ignored.
+///          is not finite, or the extent is outside 1e-6 to 1e6 m. Vertices without triangles are ignored.
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles);
 

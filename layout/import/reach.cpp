@@ -14,7 +14,7 @@
 namespace bch::detail::importing {
 namespace {
 
-constexpr double max_ratio = 1.5;  // of the rest pose's reach
+constexpr double max_ratio = 1.5;  // of the rest pose's extent
 constexpr int steps = 16;          // poses of a clip, less one
 
 /// Returns the text of a length, rounded to the millimetre.
@@ -27,12 +27,13 @@ std::string text_of(double metres) {
 void note_far_poses(const Character& character, std::size_t first_clip, ImportReport& report) {
   if (first_clip == character.clips.size()) return;
   Skinner skinner(character);
-  const double rest = reach(skinner.ground_pose({}));
+  const double rest = max_extent(skinner.ground_pose({}));
   for (std::size_t c = first_clip; c < character.clips.size(); ++c) {
     double farthest = 0;
     for (int step = 0; step <= steps; ++step) {
       const float seconds = character.clips[c].seconds * static_cast<float>(step) / static_cast<float>(steps);
-      farthest = std::max(farthest, reach(skinner.ground_pose({static_cast<std::uint32_t>(c), seconds})));
+      farthest =
+          std::max(farthest, max_extent(skinner.ground_pose({static_cast<std::uint32_t>(c), seconds})));
     }
     if (farthest > max_ratio * rest)
       report.notes.push_back("clip '" + character.clips[c].name + "': a pose reaches " + text_of(farthest) +

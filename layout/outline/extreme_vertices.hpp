@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// Finds the few vertices of a mesh, in pose after pose, that decide its reach and the smallest disc around it:
+/// Finds the few vertices of a mesh, in pose after pose, that decide its extent and the smallest disc around it:
 /// corners of its convex hull, for which no outline is needed. The vertices are snapped to the grid of outlines
 /// (outline_builder.hpp), so that the disc around them is the disc around the outline. There are two exceptions, both
 /// within the part of a disc's margin that belongs to the grid: triangles seen as a point count here, and in an
@@ -27,7 +27,7 @@ class ExtremeVertices {
 
   /// Finds the vertices of a pose. Allocates nothing once the pose with the most of them has been processed.
   /// Units:   metres; the ground is x-y.
-  /// Errors:  throws std::invalid_argument if a coordinate is not finite or the reach is outside the domain of
+  /// Errors:  throws std::invalid_argument if a coordinate is not finite or the extent is outside the domain of
   ///          rounding.hpp.
   void find(std::span<const Vec2> positions);
 

@@ -75,18 +75,18 @@ float largest_coordinate(const Vertices& vertices) {
   return -Simd::least(-Simd::max(largest[0], largest[1]));
 }
 
-bool is_in_domain(float reach) {
-  return static_cast<double>(reach) >= rounding::smallest_reach &&
-         static_cast<double>(reach) <= rounding::largest_reach;
+bool is_in_domain(float max_extent) {
+  return static_cast<double>(max_extent) >= rounding::smallest_extent &&
+         static_cast<double>(max_extent) <= rounding::largest_extent;
 }
 
 template <class Position>
 [[noreturn]] void reject(std::span<const Position> positions, std::span<const std::uint32_t> used,
-                         float reach) {
+                         float max_extent) {
   for (const std::uint32_t v : used)
     if (!is_finite(positions[v].x) || !is_finite(positions[v].y))
       throw std::invalid_argument("outline: vertex " + std::to_string(v) + " is not finite");
-  throw std::invalid_argument("outline: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
+  throw std::invalid_argument("outline: extent " + shortest(max_extent) + " m is outside 1e-6 to 1e6 m");
 }
 
 /// Writes the points of a grid of so many steps a metre: at least 8 and a power of two, so that the products are exact;
@@ -104,9 +104,9 @@ void snap(const Vertices& vertices, double steps_per_metre, std::span<GridPoint>
 template <class Vertices, class Position>
 double snap_to_grid(const Vertices& vertices, std::span<const Position> positions,
                     std::span<const std::uint32_t> used, std::span<GridPoint> points) {
-  const float reach = largest_coordinate(vertices);
-  if (!is_in_domain(reach)) reject(positions, used, reach);
-  const double step = std::ldexp(1.0, std::ilogb(reach) + 1 - grid_bits);
+  const float max_extent = largest_coordinate(vertices);
+  if (!is_in_domain(max_extent)) reject(positions, used, max_extent);
+  const double step = std::ldexp(1.0, std::ilogb(max_extent) + 1 - grid_bits);
   snap(vertices, 1 / step, points);
   return step;
 }

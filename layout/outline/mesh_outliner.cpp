@@ -63,7 +63,7 @@ Outline without_holes(const GridMesh& mesh) {
 bool is_reached(std::span<const std::array<Vec3, 3>> pieces) {
   return std::any_of(pieces.begin(), pieces.end(), [](const std::array<Vec3, 3>& piece) {
     return std::any_of(piece.begin(), piece.end(), [](const Vec3& p) {
-      return std::max(std::abs(p.x), std::abs(p.y)) >= static_cast<float>(rounding::smallest_reach);
+      return std::max(std::abs(p.x), std::abs(p.y)) >= static_cast<float>(rounding::smallest_extent);
     });
   });
 }

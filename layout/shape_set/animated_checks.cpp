@@ -82,7 +82,7 @@ class ChunkCheck {
     if (chunk_.z.size() != heights)
       reject(std::to_string(chunk_.z.size()) + " heights, not " + std::to_string(heights));
     for (std::size_t i = 0; i < heights; ++i)
-      if (!(std::abs(chunk_.z[i]) + chunk_.keys[i].radius <= static_cast<float>(rounding::largest_reach)))
+      if (!(std::abs(chunk_.z[i]) + chunk_.keys[i].radius <= static_cast<float>(rounding::largest_extent)))
         reject("a height of " + shortest(chunk_.z[i]) + " m, which is not within +-1e6");
   }
 
@@ -105,12 +105,12 @@ void require_length_of_loop(const AnimatedDiscs& discs) {
 }
 
 /// Rejects discs that reach too little or too far.
-void require_reach_of(const AnimatedDiscs& discs) {
-  double reach = 0;
+void require_extent_of(const AnimatedDiscs& discs) {
+  double max_extent = 0;
   for (const AnimatedChunk& chunk : discs.chunks)
     for (const auto& [x, y, radius] : chunk.keys)
-      reach = std::max(reach, length(double{x}, double{y}) + double{radius});
-  require_reach(reach);
+      max_extent = std::max(max_extent, length(double{x}, double{y}) + double{radius});
+  require_extent(max_extent);
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ void validate(const AnimatedDiscs& discs) {
     reject("heights from " + shortest(discs.heights.bottom) + " to " + shortest(discs.heights.top) + " m");
   require_chunks(discs);
   require_length_of_loop(discs);
-  require_reach_of(discs);
+  require_extent_of(discs);
 }
 
 }  // namespace bch

@@ -42,9 +42,9 @@ std::vector<std::uint32_t> bands_of(const AnimatedTreeChunk& chunk) {
 
 /// Finds how far the discs at a key reach for which use(i); without any, less far than discs do.
 template <class Use>
-HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key, double reach, const Use& use) {
+HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key, double max_extent, const Use& use) {
   HullKey hull{chunk.times[key], {}};
-  hull.extents.fill(-1.4143 * reach);
+  hull.extents.fill(-1.4143 * max_extent);
   for (std::size_t i = 0; i < chunk.leaf_of_disc.size(); ++i) {
     if (!use(i)) continue;
     const Disc disc = chunk.disc(key, chunk.leaf_of_disc[i]);
@@ -75,16 +75,16 @@ HullInterval interval_of(std::span<const HullKey> keys, double step) {
   return interval;
 }
 
-/// Returns the step in which all extents have 16 bits: one is at most sqrt(2) reaches, and what it is larger by twice as much.
-double step_of_hulls(double reach) {
+/// Returns the step in which all extents have 16 bits: one is at most sqrt(2) extents, and what it is larger by twice as much.
+double step_of_hulls(double max_extent) {
   int exponent = 0;
-  std::frexp(4.3 * reach / 32767, &exponent);
+  std::frexp(4.3 * max_extent / 32767, &exponent);
   return std::ldexp(1.0, exponent);
 }
 
 }  // namespace
 
-AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double reach) {
+AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double max_extent) {
   const bool in_space = chunks.front().in_space;
   std::vector<HullKey> keys;
   std::array<std::vector<HullKey>, hull_bands> of_bands;  ///< likewise
@@ -96,14 +96,14 @@ AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, doubl
         in_space ? bands_of(chunk) : std::vector<std::uint32_t>(chunk.leaf_of_disc.size());
     occupied.push_back(std::accumulate(bands.begin(), bands.end(), 0u, std::bit_or<>()));
     for (std::size_t key = 0; key < chunk.times.size(); ++key) {
-      keys.push_back(hull_key(chunk, key, reach, [](std::size_t) { return true; }));
+      keys.push_back(hull_key(chunk, key, max_extent, [](std::size_t) { return true; }));
       for (std::uint32_t band = 0; in_space && band < hull_bands; ++band)
         of_bands[band].push_back(
-            hull_key(chunk, key, reach, [&](std::size_t i) { return (bands[i] >> band & 1) != 0; }));
+            hull_key(chunk, key, max_extent, [&](std::size_t i) { return (bands[i] >> band & 1) != 0; }));
     }
   }
   begin.push_back(keys.size());
-  AnimatedHulls hulls{step_of_hulls(reach), {}, {}};
+  AnimatedHulls hulls{step_of_hulls(max_extent), {}, {}};
   for (unsigned level = 0; level < AnimatedHulls::level_count; ++level)
     for (std::size_t first = 0; first < chunks.size(); first += std::size_t{1} << level) {
       const std::size_t last = std::min(first + (std::size_t{1} << level), chunks.size());

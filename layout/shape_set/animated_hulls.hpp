@@ -105,6 +105,6 @@ struct HullDirection {
 };
 
 /// Computes the hulls of consecutive chunks.
-AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double reach);
+AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double max_extent);
 
 }  // namespace bch::detail

@@ -69,7 +69,7 @@ class BinaryTree {
   }
 
   Disc enlarged(Disc disc, double margin) const {
-    disc.radius = rounding::round_up(double{disc.radius} + margin * hierarchy_.reach);
+    disc.radius = rounding::round_up(double{disc.radius} + margin * hierarchy_.max_extent);
     return disc;
   }
 
@@ -77,13 +77,13 @@ class BinaryTree {
   Hierarchy& hierarchy_;
 };
 
-/// Finds the reach of a chunk's discs, and their speed.
+/// Finds the extent of a chunk's discs, and their speed.
 void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
   for (std::size_t key = 0; key < chunk.times.size(); ++key)
     for (const std::uint32_t leaf : chunk.leaf_of_disc) {
       const Disc disc = chunk.disc(key, leaf);
       const double x = disc.x, y = disc.y, radius = disc.radius;
-      tree.reach = std::max(tree.reach, (std::sqrt(x * x + y * y) + radius) * (1 + 0x1p-48));
+      tree.max_extent = std::max(tree.max_extent, (std::sqrt(x * x + y * y) + radius) * (1 + 0x1p-48));
       const double z = chunk.z(key, leaf);
       if (chunk.in_space) tree.height = std::max(tree.height, (std::abs(z) + radius) * (1 + 0x1p-48));
       if (key == 0) continue;
@@ -104,15 +104,15 @@ std::unique_ptr<AnimatedTree> tree_of(std::span<const AnimatedChunk> chunks, boo
     measure(tree->chunks.back(), *tree);
   }
   tree->in_space = tree->chunks.front().in_space;
-  require_reach(tree->reach);
-  tree->hulls = animated_hulls(tree->chunks, tree->reach);
+  require_extent(tree->max_extent);
+  tree->hulls = animated_hulls(tree->chunks, tree->max_extent);
   return tree;
 }
 
-void make_shape(const ChunkAt& at, double reach, Shape& shape) {
+void make_shape(const ChunkAt& at, double max_extent, Shape& shape) {
   shape.outline.points.clear(), shape.outline.contour_begin.assign(1, 0);
   shape.hierarchy.nodes.clear();
-  shape.hierarchy.reach = reach;
+  shape.hierarchy.max_extent = max_extent;
   shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
   BinaryTree(at, shape.hierarchy).add_root();
 }
@@ -145,8 +145,8 @@ bool AnimatedShape::in_space() const noexcept {
   return tree_->in_space;
 }
 
-double AnimatedShape::reach() const noexcept {
-  return tree_->reach;
+double AnimatedShape::bounding_radius() const noexcept {
+  return tree_->max_extent;
 }
 
 std::size_t AnimatedShape::bytes() const noexcept {
@@ -191,7 +191,7 @@ Shape AnimatedShape::shape(double seconds) const {
 void AnimatedShape::shape(double seconds, Shape& shape) const {
   const FloatingPointStateGuard floats;
   shape.heights = heights_;
-  make_shape(ChunkAt(*tree_, seconds), tree_->reach, shape);
+  make_shape(ChunkAt(*tree_, seconds), tree_->max_extent, shape);
 }
 
 }  // namespace bch

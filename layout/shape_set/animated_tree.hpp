@@ -20,7 +20,7 @@ constexpr std::uint32_t animated_width = 8;  ///< the most children of a node
 /// so rounds stay in order.
 constexpr double shortest_loop = 0.001;
 
-/// Margins of radii at a time, times the reach. The margin of nodes is larger, so that nodes enclose their
+/// Margins of radii at a time, times the extent. The margin of nodes is larger, so that nodes enclose their
 /// descendants with room to spare, also for the rounding of both: 8 u for nodes that are rounded once, and, for a
 /// node made of two others, three roundings for each of up to 12 nodes between a leaf and the root.
 constexpr double margin_of_leaves = rounding::query_margin,
@@ -109,7 +109,7 @@ struct AnimatedTree {
   AnimatedHulls hulls;
   bool loops = false;
   bool in_space = false;  ///< whether discs are spheres
-  double reach = 0;       ///< as seen from above, metres
+  double max_extent = 0;  ///< as seen from above, metres
   double height = 0;  ///< the largest distance of a sphere's points above or below its agent's ground, metres
   double speed = 0;   ///< a bound on how fast centres move and radii grow, metres per second
 
@@ -129,8 +129,8 @@ double time_in_clip(const AnimatedTree& tree, double seconds) noexcept;
 ///
 /// Derivation: each coordinate of a centre goes to the nearest multiple of the step, so the centre moves by at most
 /// sqrt(1/2) steps. The radius plus that distance is rounded up. So the new disc encloses the old one and protrudes
-/// from it by less than 2 sqrt(1/2) + 1 < 2.42 steps. A step is at most 2^-14 of the reach. For spheres, sqrt(3/4)
-/// takes the place of sqrt(1/2), a sixth that of two fifths, and the reach in space that of the reach on the ground.
+/// from it by less than 2 sqrt(1/2) + 1 < 2.42 steps. A step is at most 2^-14 of the extent. For spheres, sqrt(3/4)
+/// takes the place of sqrt(1/2), a sixth that of two fifths, and the extent in space that of the extent on the ground.
 AnimatedTreeChunk animated_tree_chunk(const AnimatedChunk& chunk);
 
 }  // namespace bch::detail

@@ -75,8 +75,8 @@ void Bvh8Builder::flatten(std::uint32_t depth, Bvh8& tree) {
   tree.y.assign(y_.begin(), y_.begin() + padded);
   tree.radius.assign(radius_.begin(), radius_.begin() + padded);
   take_inner(tree);
-  tree.conservative_nodes =
-      conservative_nodes({x_.data(), y_.data(), radius_.data(), count_}, tree.inner_nodes, hierarchy_->reach);
+  tree.conservative_nodes = conservative_nodes({x_.data(), y_.data(), radius_.data(), count_},
+                                               tree.inner_nodes, hierarchy_->max_extent);
   if (!grow(&Bvh8Builder::subtrees, tree)) grow(&Bvh8Builder::even_runs, tree);
 }
 
@@ -199,11 +199,11 @@ float Bvh8Builder::outer_radius(const Group& group) const {
 }
 
 Supports Bvh8Builder::supports() const {
-  return detail::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
+  return detail::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->max_extent);
 }
 
 Outer Bvh8Builder::outer(const Profile& profile) const {
-  return detail::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
+  return detail::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->max_extent);
 }
 
 Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth) {

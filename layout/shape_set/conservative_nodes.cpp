@@ -11,11 +11,12 @@
 
 namespace bch::detail {
 
-bool conservative_nodes(const CutDiscs& discs, std::span<const InnerNode> inner, double reach) noexcept {
+bool conservative_nodes(const CutDiscs& discs, std::span<const InnerNode> inner, double max_extent) noexcept {
   if (discs.count == 1) return true;
   const auto holds = [&](const InnerNode& node, std::size_t disc) {
     const double x = double{discs.x[disc]} - double{node.x}, y = double{discs.y[disc]} - double{node.y};
-    return std::sqrt(x * x + y * y) + double{discs.radius[disc]} + rounding::conservative_margin * reach <=
+    return std::sqrt(x * x + y * y) + double{discs.radius[disc]} +
+               rounding::conservative_margin * max_extent <=
            double{node.radius};
   };
   for (std::uint32_t disc = 0; disc < discs.count; ++disc) {

@@ -109,7 +109,7 @@ FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
     flat.levels.emplace_back().root = {root.x, root.y, root.radius};
     flat.levels.back().count = 1;
   }
-  if (!arrays.reach.empty()) flat.reach = static_cast<double>(arrays.reach[shape]);
+  if (!arrays.max_extent.empty()) flat.max_extent = static_cast<double>(arrays.max_extent[shape]);
   if (!arrays.profiles.empty()) take_culling(arrays, shape, arrays.roots[first_root + levels - 1].row, flat);
   if (!arrays.shape_contours.empty()) take_outline(arrays, shape, flat);
   return flat;

@@ -28,15 +28,17 @@ struct ExactCapsule {
 
   explicit ExactCapsule(const Capsule& of)
       : ax(of.a.x), ay(of.a.y), bx(of.b.x), by(of.b.y), radius(of.radius) {}
-  bool is_valid() const { return radius > 0 && reach() <= detail::rounding::largest_reach; }
+  bool is_valid() const { return radius > 0 && max_extent() <= detail::rounding::largest_extent; }
   /// Returns the largest distance of a point from the origin, at least.
-  double reach() const { return std::max(std::abs(ax) + std::abs(ay), std::abs(bx) + std::abs(by)) + radius; }
+  double max_extent() const {
+    return std::max(std::abs(ax) + std::abs(ay), std::abs(bx) + std::abs(by)) + radius;
+  }
 };
 
 /// Returns a polygon about a capsule: half a regular polygon, circumscribed, about each end. Corners of n of them are 1 / cos(pi / n) of the radius
 /// away from the end.
 std::vector<Vec2> polygon_about(const ExactCapsule& capsule, double tolerance) {
-  const double spare = corner_rounding * capsule.reach(), radius = capsule.radius + spare;
+  const double spare = corner_rounding * capsule.max_extent(), radius = capsule.radius + spare;
   const auto excess = [&](int corners) {
     const detail::Rotation half = detail::rotation(std::numbers::pi / corners);
     return radius * (1 / half.cosine - 1) + 2 * spare;

@@ -60,7 +60,7 @@ void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatBody& fl
 }
 
 void ShapeFlattener::flatten(const Shape& shape, FlatShape& flat) {
-  flat.reach = shape.hierarchy.reach;
+  flat.max_extent = shape.hierarchy.max_extent;
   add_levels(shape, flat);
   if (!plan_.outlines) return;
   add_outline(shape, flat);
@@ -93,11 +93,11 @@ void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
   inside.x.fill(std::numeric_limits<float>::infinity());
   static const Outline none;
   const Outline& outline = plan_.outlines ? shape.outline : none;
-  if (outline.contours() > 0) inside = interiors_.build(outline, shape.hierarchy.reach);
+  if (outline.contours() > 0) inside = interiors_.build(outline, shape.hierarchy.max_extent);
   std::copy(inside.x.begin(), inside.x.end(), flat.inscribed.x);
   std::copy(inside.y.begin(), inside.y.end(), flat.inscribed.y);
   std::copy(inside.radius.begin(), inside.radius.end(), flat.inscribed.radius);
-  flat.profile = profile(outline, inside, shape.hierarchy.reach);
+  flat.profile = profile(outline, inside, shape.hierarchy.max_extent);
   for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;
 }
 
@@ -116,7 +116,8 @@ void ShapeFlattener::add_culling(const Shape& shape, std::size_t level, FlatShap
   const Bounds discs{bvh8_builder_.supports(), outer_of_discs};
   const bool by_segments = has_segments(shape, flat);
   if (by_segments) points_.assign(shape.outline);
-  const Bounds bounds = by_segments ? outline_bounds(flat.profile, points_, shape.hierarchy.reach) : discs;
+  const Bounds bounds =
+      by_segments ? outline_bounds(flat.profile, points_, shape.hierarchy.max_extent) : discs;
   flat.supports = bounds.supports;
   for (std::uint32_t k = 0; k < profile_sectors; ++k) sectors[k].outer = bounds.outer[k];
   flat.profile.excess = excess(discs, bounds);
@@ -132,7 +133,7 @@ bool ShapeFlattener::has_segments(const Shape& shape, const FlatShape& flat) con
 void ShapeFlattener::add_outline(const Shape& shape, FlatShape& flat) {
   const Outline& outline = flat.outline = shape.outline;
   flat.segment_margin =
-      rounding::round_up(rounding::segment_margin * shape.hierarchy.reach +
+      rounding::round_up(rounding::segment_margin * shape.hierarchy.max_extent +
                          rounding::outline_grid_steps * static_cast<double>(outline.grid_step));
   flat.contour_disc.clear();
   for (std::size_t c = 0; c < outline.contours(); ++c) {

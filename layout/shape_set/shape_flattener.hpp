@@ -16,7 +16,7 @@ namespace bch::detail {
 
 /// Holds all that a set stores of a shape except its heights.
 struct FlatShape {
-  double reach = 0;
+  double max_extent = 0;
   std::vector<Bvh8> levels;  ///< one per depth
   /// The supports of the outline if the deepest level has segments, else of that level's discs. This and the next two
   /// members are used only if the plan has culling data.

@@ -61,7 +61,7 @@ void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const S
   if (plan.depths.back() == 0) return;
   trees.reserve(shapes * plan.depths.size());
   nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_bit));
-  reach.reserve(shapes);
+  max_extent.reserve(shapes);
   if (plan.culling) {
     support.reserve(extent.rows * support_stride);
     inscribed.reserve(shapes), profiles.reserve(shapes);
@@ -80,7 +80,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   roots.resize(shapes * levels);
   if (plan.depths.back() == 0) return;
   trees.resize(shapes * levels);
-  reach.resize(shapes);
+  max_extent.resize(shapes);
   if (plan.culling) inscribed.resize(shapes), profiles.resize(shapes);
   if (plan.outlines) shape_contours.resize(shapes), segment_margin.resize(shapes);
 }
@@ -128,7 +128,7 @@ void ShapeStorage::store(std::size_t shape, const FlatBody& body, const ShapeExt
     node = level_end(tree, node);
   }
   if (!heights.empty()) heights[shape] = body.heights;
-  if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
+  if (!max_extent.empty()) max_extent[shape] = rounding::round_up(flat.max_extent);
   if (!profiles.empty()) store_culling(shape, flat, at);
   if (!shape_contours.empty()) store_outline(shape, flat, at);
 }

@@ -44,7 +44,7 @@ struct ShapeStorage {
   AlignedVector<std::uint32_t> depths;
   AlignedVector<Root> roots;
   AlignedVector<Tree> trees;
-  AlignedVector<float> nodes, reach, support;
+  AlignedVector<float> nodes, max_extent, support;
   AlignedVector<DiscBlock> inscribed;
   AlignedVector<Profile> profiles;
   AlignedVector<ContourRange> shape_contours;

@@ -35,7 +35,7 @@ void verify_shape(const Verifier& verifier) {
   verify_levels(verifier);
   if (verifier.set.roots_only()) return;
   const Outline outline = outline_of(verifier.arrays(), verifier.shape);
-  verify_reach(verifier);
+  verify_extent(verifier);
   for (std::uint32_t level = 0; level < verifier.levels(); ++level) {
     verify_tree(verifier, level);
     verify_cover(verifier, outline, level);
@@ -67,10 +67,10 @@ std::vector<Inconsistency> verify(const ShapeSet& set, std::size_t most) {
   std::vector<Inconsistency> inconsistencies;
   const ShapeArrays& arrays = set.arrays();
   for (std::uint32_t shape = 0; shape < set.shape_count() && inconsistencies.size() < most; ++shape) {
-    const double reach = set.roots_only()
-                             ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
-                             : static_cast<double>(arrays.reach[shape]);
-    verification::verify_shape({set, inconsistencies, most, shape, reach});
+    const double max_extent =
+        set.roots_only() ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
+                         : static_cast<double>(arrays.max_extent[shape]);
+    verification::verify_shape({set, inconsistencies, most, shape, max_extent});
   }
   return inconsistencies;
 }

@@ -33,7 +33,7 @@ std::string text_of(const Inconsistency& inconsistency);
 ///   enclose it and are no larger than needed.
 /// - A level has at most as many discs as its depth allows and no fewer than the level before. Each disc belongs to a
 ///   disc of the level before, and could be the smallest disc around a part of that disc's points.
-/// - Reaches, supports and outer radii of profiles follow from the discs.
+/// - Extents, supports and outer radii of profiles follow from the discs.
 /// - If outlines are stored, every level's discs cover them. Leaves that name a segment cover it. Margins are not
 ///   below what rounding needs. Contours' discs are the smallest. Inscribed discs lie inside the largest contour.
 ///   Profiles follow from the outline. If outlines are not stored, there are no inscribed discs, and profiles have no

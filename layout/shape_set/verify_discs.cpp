@@ -40,8 +40,8 @@ void verify_levels(const Verifier& verifier) {
   }
 }
 
-/// A smallest disc's centre is within the reach, and a shape reaches no farther than its discs do.
-void verify_reach(const Verifier& verifier) {
+/// A smallest disc's centre is within the extent, and a shape reaches no farther than its discs do.
+void verify_extent(const Verifier& verifier) {
   double least = 0, most = 0;
   for (std::uint32_t level = 0; level < verifier.levels(); ++level) {
     const CutDiscs discs = verifier.cut(level);
@@ -53,9 +53,9 @@ void verify_reach(const Verifier& verifier) {
     }
     most = level == 0 ? extent : std::min(most, extent);
   }
-  if (verifier.reach < least - verifier.tolerance() || verifier.reach > most + verifier.tolerance())
-    verifier.report("reach", Inconsistency::no_level,
-                    shortest(verifier.reach) + " m, and its discs say " + shortest(least) + " to " +
+  if (verifier.max_extent < least - verifier.tolerance() || verifier.max_extent > most + verifier.tolerance())
+    verifier.report("max_extent", Inconsistency::no_level,
+                    shortest(verifier.max_extent) + " m, and its discs say " + shortest(least) + " to " +
                         shortest(most) + " m");
 }
 
@@ -63,12 +63,12 @@ DeepestBounds deepest_bounds(const Verifier& verifier, const Outline& outline) {
   const std::uint32_t deepest = verifier.levels() - 1;
   const CutDiscs cut = verifier.cut(deepest);
   const Profile& profile = verifier.arrays().profiles[verifier.shape];
-  const Bounds discs{supports(cut.x, cut.y, cut.radius, cut.count, verifier.reach),
-                     outer(profile, cut.x, cut.y, cut.radius, cut.count, verifier.reach)};
+  const Bounds discs{supports(cut.x, cut.y, cut.radius, cut.count, verifier.max_extent),
+                     outer(profile, cut.x, cut.y, cut.radius, cut.count, verifier.max_extent)};
   const bool has_segments = verifier.arrays().trees[verifier.root(deepest)].segments != no_segments;
   PointDiscs points;
   points.assign(outline);
-  return {discs, has_segments ? outline_bounds(profile, points, verifier.reach) : discs};
+  return {discs, has_segments ? outline_bounds(profile, points, verifier.max_extent) : discs};
 }
 
 void verify_supports(const Verifier& verifier, const Supports& expected) {

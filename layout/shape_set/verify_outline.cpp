@@ -99,7 +99,7 @@ void verify_outer(const Verifier& verifier, const Profile& stored, const Deepest
   for (std::uint32_t level = 0; level + 1 < verifier.levels(); ++level) {
     const CutDiscs discs = verifier.cut(level);
     if (discs.count == 1) continue;
-    const Outer of_level = outer(stored, discs.x, discs.y, discs.radius, discs.count, verifier.reach);
+    const Outer of_level = outer(stored, discs.x, discs.y, discs.radius, discs.count, verifier.max_extent);
     for (std::uint32_t k = 0; k < profile_sectors; ++k) shallow[k] = std::max(shallow[k], of_level[k]);
   }
   const auto compare = [&](const std::string& what, float value, float expected) {
@@ -144,7 +144,7 @@ void verify_cover(const Verifier& verifier, const Outline& outline, std::uint32_
 void verify_segments(const Verifier& verifier) {
   const ShapeArrays& arrays = verifier.arrays();
   const double margin = arrays.segment_margin[verifier.shape];
-  if (margin + verifier.tolerance() * 0x1p-4 < rounding::segment_margin * verifier.reach)
+  if (margin + verifier.tolerance() * 0x1p-4 < rounding::segment_margin * verifier.max_extent)
     verifier.report("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
   const std::uint32_t level = verifier.levels() - 1;
   const Tree& tree = arrays.trees[verifier.root(level)];
@@ -181,20 +181,21 @@ void verify_contours(const Verifier& verifier, const Outline& outline) {
           "contours", no_level,
           "the disc of contour " + std::to_string(place) + " at " + text_of(stored) + " is not its smallest");
   }
-  const double farthest = reach(outline.points);
+  const double farthest = max_extent(outline.points);
   const bool more = outline.contours() > 0 && verifier.cut(verifier.levels() - 1).count > 1;
-  if (farthest > verifier.reach + verifier.tolerance() ||
-      (more && verifier.reach > farthest + verifier.tolerance()))
-    verifier.report("reach", no_level,
-                    shortest(verifier.reach) + " m, and the outline reaches to " + shortest(farthest) + " m");
+  if (farthest > verifier.max_extent + verifier.tolerance() ||
+      (more && verifier.max_extent > farthest + verifier.tolerance()))
+    verifier.report(
+        "max_extent", no_level,
+        shortest(verifier.max_extent) + " m, and the outline reaches to " + shortest(farthest) + " m");
 }
 
 void verify_profile(const Verifier& verifier, const Outline& outline, const DeepestBounds& bounds) {
   const Profile& stored = verifier.arrays().profiles[verifier.shape];
   verify_outer(verifier, stored, bounds);
-  // Made from the reach before it was rounded up.
-  const float reach = std::nextafter(static_cast<float>(verifier.reach), 0.0f);
-  const Profile expected = profile(outline, extremes_of(outline), static_cast<double>(reach));
+  // Made from the extent before it was rounded up.
+  const float max_extent = std::nextafter(static_cast<float>(verifier.max_extent), 0.0f);
+  const Profile expected = profile(outline, extremes_of(outline), static_cast<double>(max_extent));
   const double off = length(plane_point({stored.x, stored.y}) - plane_point({expected.x, expected.y}));
   if (off > verifier.tolerance())
     return verifier.report(
@@ -210,7 +211,7 @@ void verify_inside(const Verifier& verifier, const Outline& outline) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
     const Depth depth = contour.empty() ? Depth{0, false} : depth_in(contour, plane_point({disc.x, disc.y}));
-    const double max_radius = depth.distance - 24 * rounding::unit_roundoff * verifier.reach;
+    const double max_radius = depth.distance - 24 * rounding::unit_roundoff * verifier.max_extent;
     if (!depth.inside || static_cast<double>(disc.radius) > max_radius)
       verifier.report(
           "inscribed", no_level,

@@ -29,14 +29,14 @@ struct Verifier {
   std::vector<Inconsistency>& inconsistencies;
   std::size_t most;  ///< the limit of inconsistencies
   std::uint32_t shape;
-  double reach;  ///< metres; in a set of roots alone, the reach of the root
+  double max_extent;  ///< metres; in a set of roots alone, the extent of the root
 
   const ShapeArrays& arrays() const { return set.arrays(); }
   std::uint32_t levels() const { return set.level_count(); }
   std::uint32_t root(std::uint32_t level) const { return shape * set.level_count() + level; }
   CutDiscs cut(std::uint32_t level) const { return cut_discs(set.view(), root(level)); }
-  /// The tolerance of lengths: for rounding to float, and for recomputing from a reach that was rounded up.
-  double tolerance() const { return 0x1p-19 * reach; }
+  /// The tolerance of lengths: for rounding to float, and for recomputing from an extent that was rounded up.
+  double tolerance() const { return 0x1p-19 * max_extent; }
 
   void report(const char* array, std::uint32_t level, const std::string& what) const {
     if (inconsistencies.size() < most) inconsistencies.push_back({shape, level, array, what});
@@ -53,7 +53,7 @@ bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
 
 void verify_tree(const Verifier& verifier, std::uint32_t level);
 void verify_levels(const Verifier& verifier);
-void verify_reach(const Verifier& verifier);
+void verify_extent(const Verifier& verifier);
 /// Holds bounds of a shape's deepest cut: of its discs, and the bounds that a set stores, which are those of the
 /// outline if the cut has segments.
 struct DeepestBounds {

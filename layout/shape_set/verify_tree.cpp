@@ -43,7 +43,7 @@ class LevelTree {
   }
 
   void verify_conservative_nodes() const {
-    if (tree_.conservative_nodes != 0 && !conservative_nodes(cut_, inner_, 0.999 * verifier_.reach))
+    if (tree_.conservative_nodes != 0 && !conservative_nodes(cut_, inner_, 0.999 * verifier_.max_extent))
       verifier_.report("trees", level_, "a node does not hold the discs below it, as the tree says");
   }
 

@@ -134,7 +134,7 @@ constexpr std::size_t brute_stride = 32;
 /// How close to touching FCL and the exact tests may differ, metres: FCL projects onto normalised products of
 /// edges in double, which are off by 1e-16 of lengths of a metre, divided by sines of sliver triangles.
 constexpr double fcl_band = 1e-9;
-/// How close to touching the placement in double and in long double may differ: 6e-10 of the reach.
+/// How close to touching the placement in double and in long double may differ: 6e-10 of the extent.
 constexpr double placement_band = 2e-9;
 
 class Suite {

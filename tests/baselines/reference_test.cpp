@@ -183,7 +183,7 @@ TEST(Counts, OfLimitedDepthsAreThoseOfTheSameDescent) {
 Body two_leaves(Disc root, Disc first, Disc second) {
   Body body;
   body.shape.hierarchy.nodes = {{root, 2}, {first, 0}, {second, 0}};
-  body.shape.hierarchy.reach = 2;
+  body.shape.hierarchy.max_extent = 2;
   return body;
 }
 
@@ -246,7 +246,7 @@ TEST(Examples, TreesMayBeHigh) {
   test::Random random(2441);
   Body comb;
   auto& nodes = comb.shape.hierarchy.nodes;
-  comb.shape.hierarchy.reach = 2;
+  comb.shape.hierarchy.max_extent = 2;
   for (std::uint32_t i = 0; i < 300; ++i) {
     const auto along = static_cast<float>(0.01 * i - 1.5);
     nodes.push_back({{0, 0, 2}, static_cast<std::uint32_t>(nodes.size() + 2)});

@@ -34,7 +34,7 @@ std::vector<Sphere> spheres_of(Bytes& bytes) {
   return spheres;
 }
 
-/// Places agents by twos, each beside the other by about the bodies' reaches.
+/// Places agents by twos, each beside the other by about the bodies' extents.
 test::BodyCrowd crowd_of(Bytes& bytes, const BodySet& bodies) {
   constexpr double worlds[] = {0, 1, -1e3, 1e6, 1e7, -9e8};
   test::BodyCrowd crowd;

@@ -57,9 +57,9 @@ void add_pair(Bytes& bytes, const std::vector<Shape>& shapes, test::Crowd& crowd
   constexpr double worlds[] = {0, 1, -1e3, 1e6, 1e7, -9e8};
   const double x = worlds[bytes.below(6)], y = worlds[bytes.below(6)];
   const std::uint32_t a = bytes.below(3), b = bytes.below(3);
-  const double reach = shapes[a].hierarchy.reach + shapes[b].hierarchy.reach;
-  const double dx = std::ldexp(reach * bytes.take<std::int32_t>(), -31),
-               dy = std::ldexp(reach * bytes.take<std::int32_t>(), -31);
+  const double max_extent = shapes[a].hierarchy.max_extent + shapes[b].hierarchy.max_extent;
+  const double dx = std::ldexp(max_extent * bytes.take<std::int32_t>(), -31),
+               dy = std::ldexp(max_extent * bytes.take<std::int32_t>(), -31);
   crowd.add({a, x, y, heading_of(bytes), static_cast<std::uint8_t>(bytes.below(3))});
   crowd.add({b, x + dx, y + dy, heading_of(bytes), static_cast<std::uint8_t>(bytes.below(3))});
 }

@@ -45,7 +45,7 @@ void check_contours(Bytes& bytes) {
   const Outline outline = outline_of(bytes);
   validate(outline);
   // A small threshold would halve segments by the million.
-  const auto threshold = static_cast<float>(detail::reach(outline.points) / (1 + bytes.below(64)));
+  const auto threshold = static_cast<float>(detail::max_extent(outline.points) / (1 + bytes.below(64)));
   for (const detail::SplitRule rule : {detail::SplitRule::centroid, detail::SplitRule::centre}) {
     const Shape shape{outline, contour_hierarchy(outline, threshold, rule)};
     test::expect_covers_outline(shape.hierarchy, outline);

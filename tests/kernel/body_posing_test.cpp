@@ -74,7 +74,7 @@ TEST(BodyPosing, HoldsEveryTriangleInEveryPose) {
   expect_covered_in_poses(default_body(default_male(), 64), test::samples(40));
 }
 
-/// A character far from its origin loses bits: margins have to grow with the reach.
+/// A character far from its origin loses bits: margins have to grow with the extent.
 TEST(BodyPosing, HoldsEveryTriangleFarFromTheOrigin) {
   const Character man = default_male();
   const BodyModel model = test::plain_model(man, 96);
@@ -214,7 +214,8 @@ TEST(BodyPosing, RefusesWhatItCannotPose) {
   EXPECT_TRUE(test::has(test::complaint([&] { poser.spheres(Pose(99, 0.0f)); }), "clip"));
   auto far = joint_transforms(man, {0, 0}, JointFrame::world);
   for (Affine3d& joint : far) joint.rows[2][3] += 1e7;
-  EXPECT_TRUE(test::has(test::complaint<std::domain_error>([&] { poser.spheres(WorldPose{far}); }), "reach"));
+  EXPECT_TRUE(
+      test::has(test::complaint<std::domain_error>([&] { poser.spheres(WorldPose{far}); }), "extent"));
 }
 
 /// Two models, whose bodies take turns.

@@ -70,8 +70,9 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
             shape.hierarchy.nodes[cut(shape.hierarchy, all_depths)[node]].disc.radius);
       };
       const long double ra = radius(shape_a, all[i].discs.first), rb = radius(shape_b, all[i].discs.second);
-      const long double centres = found + ra + rb, reach = shape_a.hierarchy.reach + shape_b.hierarchy.reach;
-      EXPECT_LE(exact - found, ra + rb + (ra * ra + rb * rb) / (2 * centres) + 4e-6L * (reach + centres))
+      const long double centres = found + ra + rb,
+                        max_extent = shape_a.hierarchy.max_extent + shape_b.hierarchy.max_extent;
+      EXPECT_LE(exact - found, ra + rb + (ra * ra + rb * rb) / (2 * centres) + 4e-6L * (max_extent + centres))
           << i;
     }
   }
@@ -290,9 +291,10 @@ void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairSc
     ASSERT_LE(found[i].distance, exact) << i;
     const bool segments = a.hierarchy.nodes.size() > 1 && b.hierarchy.nodes.size() > 1;
     if (!segments) continue;
-    const long double reach = a.hierarchy.reach + b.hierarchy.reach,
+    const long double max_extent = a.hierarchy.max_extent + b.hierarchy.max_extent,
                       steps = static_cast<long double>(a.outline.grid_step) + b.outline.grid_step,
-                      most = 1.4e-6L * reach + detail::rounding::outline_grid_steps * steps + 0.9e-6L * exact;
+                      most = 1.4e-6L * max_extent + detail::rounding::outline_grid_steps * steps +
+                             0.9e-6L * exact;
     ASSERT_LE(exact - found[i].distance, most) << i;
     if (found[i].distance == 0) {
       EXPECT_EQ(found[i].discs, DiscPair::none);

@@ -136,7 +136,7 @@ bool has_corner_inside(const Outline& outer, const Outline& inner, double x, dou
 test::PairScene copies_inside(test::Random& random, const Outline& big, const Outline& small) {
   test::PairScene scene;
   constexpr int raster = 40;
-  const double size = detail::reach(big.points);
+  const double size = detail::max_extent(big.points);
   for (int j = 0; j < raster; ++j)
     for (int i = 0; i < raster; ++i) {
       const double x = size * (2.0 * i / raster - 1), y = size * (2.0 * j / raster - 1),

@@ -67,7 +67,7 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
         largest = std::max(largest, gap);
       }
     }
-  std::printf("%zu answers, %zu cross; %zu hits with a gap, of up to %.3g m per metre of reach\n", tested,
+  std::printf("%zu answers, %zu cross; %zu hits with a gap, of up to %.3g m per metre of extent\n", tested,
               crossing, near, largest);
   EXPECT_GT(crossing, tested / 4);
   EXPECT_GT(near, tested / 50);

@@ -50,9 +50,9 @@ class NearestFreeOutlines : public test::Differential {
  protected:
   NearestFreeOutlines() : Differential(5701, {{0, 3, all_depths}}) {}
 
-  double reaches(const PairScene& scene, Pair pair) const {
+  double max_extents(const PairScene& scene, Pair pair) const {
     const auto of = [&](std::uint32_t agent) {
-      return double{shapes[scene.crowd.shape[agent]].hierarchy.reach};
+      return double{shapes[scene.crowd.shape[agent]].hierarchy.max_extent};
     };
     return of(pair.first) + of(pair.second);
   }
@@ -74,7 +74,8 @@ TEST_F(NearestFreeOutlines, LeavesNoCollision) {
         ASSERT_EQ(ways[i].depth > 0, hits[i] != 0) << i;
         ASSERT_NEAR(std::hypot(ways[i].x, ways[i].y), 1, 1e-9);
         if (hits[i] == 0) continue;
-        ASSERT_LE(double{ways[i].depth}, double{whole[i].depth} + 2e-5 * reaches(scene, scene.pairs[i])) << i;
+        ASSERT_LE(double{ways[i].depth}, double{whole[i].depth} + 2e-5 * max_extents(scene, scene.pairs[i]))
+            << i;
         ++collisions;
         if (double{ways[i].depth} < 0.9 * double{whole[i].depth}) ++shorter;
       }

@@ -64,8 +64,8 @@ class SeparatingAxisTest : public test::Differential {
     return static_cast<std::size_t>(std::count(hits.begin(), hits.end(), 1));
   }
 
-  double reach(const Agents& agents, std::uint32_t agent) const {
-    return static_cast<double>(cuts.reach(agents, agent));
+  double max_extent(const Agents& agents, std::uint32_t agent) const {
+    return static_cast<double>(cuts.max_extent(agents, agent));
   }
 };
 
@@ -119,12 +119,12 @@ TEST_F(SeparatingAxisTest, DepthsDoNotJump) {
         const double turn = random.uniform(-size, size);
         scene.crowd.x[agent] += dx, scene.crowd.y[agent] += dy, scene.crowd.heading[agent] += turn;
         motion[i] += std::hypot(dx, dy) +
-                     std::abs(turn) * reach(scene.crowd.agents(), static_cast<std::uint32_t>(agent));
+                     std::abs(turn) * max_extent(scene.crowd.agents(), static_cast<std::uint32_t>(agent));
       }
     const auto next_best = best_of(16, set, scene), next_given = along(directions, set, scene);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       const auto [a, b] = scene.pairs[i];
-      const double both = reach(scene.crowd.agents(), a) + reach(scene.crowd.agents(), b);
+      const double both = max_extent(scene.crowd.agents(), a) + max_extent(scene.crowd.agents(), b);
       for (const auto& [now, before] :
            {std::pair{next_best[i], best[i]}, std::pair{next_given[i], given[i]}}) {
         const double change = std::abs(static_cast<double>(now.depth) - static_cast<double>(before.depth));
@@ -157,7 +157,7 @@ TEST_F(SeparatingAxisTest, IsTheLeastThatDoesNotJump) {
     });
     scene.crowd.y[a] = scene.crowd.y[b] + static_cast<double>(foremost.y) - static_cast<double>(last.y);
     less[i].depth *= 1 - 4e-7f;
-    less[i].depth -= static_cast<float>(5e-6 * (reach(agents, a) + reach(agents, b)));
+    less[i].depth -= static_cast<float>(5e-6 * (max_extent(agents, a) + max_extent(agents, b)));
   }
   std::vector<float> distance(scene.pairs.size());
   clearance(set, moved(scene, less).crowd.agents(), scene.pairs, {distance});

@@ -49,7 +49,7 @@ Outline scaled(std::vector<Vec2> points, double size) {
   return outline;
 }
 
-/// From the smallest documented reach to nine orders of magnitude more. Of every size a stroke along x of many leaves, all of whose
+/// From the smallest documented extent to nine orders of magnitude more. Of every size a stroke along x of many leaves, all of whose
 /// pruning discs end where leaves do; the same as one disc, far from its origin; a star of many leaves; and one of a few, far from its
 /// origin. Margins that grow with the size of one shape alone do not hold for the other's rounding.
 std::vector<Shape> of_unequal_sizes(Random& random) {
@@ -71,7 +71,7 @@ std::vector<Shape> of_unequal_sizes(Random& random) {
 Shape comb(Random& random, std::uint32_t leaves) {
   Shape shape;
   std::vector<Hierarchy::Node>& nodes = shape.hierarchy.nodes;
-  shape.hierarchy.reach = 2;
+  shape.hierarchy.max_extent = 2;
   double x = 0, y = 0, turn = random.uniform(-3, 3);
   for (std::uint32_t i = 0; i < leaves; ++i) {
     const Disc disc{static_cast<float>(x), static_cast<float>(y),

@@ -26,7 +26,7 @@ using test::Random;
 struct PosedShape {
   std::uint32_t shape;
   std::uint8_t level;
-  double heading, reach;
+  double heading, max_extent;
   baselines::QuadVector rotation;  ///< by the heading
   baselines::ExactCut cut;
 };
@@ -60,7 +60,7 @@ struct NearTangent {
       meet;  ///< whether the discs of the cuts overlap with all above, exactly: then the pair has to be a hit
   double gap;  ///< of i and j, metres, less than zero where they overlap
 
-  double reaches() const { return a->reach + b->reach; }
+  double max_extents() const { return a->max_extent + b->max_extent; }
   const baselines::ExactDisc& disc_a() const { return a->cut.discs[i]; }
   const baselines::ExactDisc& disc_b() const { return b->cut.discs[j]; }
   double radii() const { return static_cast<double>(disc_a().radius + disc_b().radius); }
@@ -159,19 +159,19 @@ Quad excess(const ExactDisc& a, const ExactDisc& b, QuadVector shift) {
   return square(shift - (a.centre - b.centre)) - radii * radii;
 }
 
-double near_gap(Random& random, double radii, double reaches) {
+double near_gap(Random& random, double radii, double max_extents) {
   switch (random.below(4)) {
     case 0:
       return (static_cast<int>(random.below(129)) - 64) * 0x1p-52 * radii;
     case 1:
-      return random.uniform(-8, 8) * detail::rounding::unit_roundoff * reaches;
+      return random.uniform(-8, 8) * detail::rounding::unit_roundoff * max_extents;
     default:
       return (static_cast<int>(random.below(129)) - 64) * 0x1p-24 * radii;
   }
 }
 
 void place(Random& random, NearTangent& pair, const Touching& touching) {
-  const double radii = pair.radii(), distance = radii + near_gap(random, radii, pair.reaches());
+  const double radii = pair.radii(), distance = radii + near_gap(random, radii, pair.max_extents());
   const QuadVector between = pair.disc_a().centre - pair.disc_b().centre;
   pair.x = pair.at_x + (static_cast<double>(between.x) + distance * touching.x);
   pair.y = pair.at_y + (static_cast<double>(between.y) + distance * touching.y);
@@ -198,7 +198,7 @@ TangentShapes::TangentShapes(std::uint64_t seed, std::uint32_t shapes, std::uint
     const double heading = heading_of_any_size(random);
     const auto rotation = baselines::quad_rotation(heading);
     const Hierarchy& hierarchy = shapes_[shape].hierarchy;
-    poses_.push_back({shape, level, heading, hierarchy.reach, rotation,
+    poses_.push_back({shape, level, heading, hierarchy.max_extent, rotation,
                       baselines::exact_cut(hierarchy, plan.depths[level]).posed(rotation)});
   }
 }
@@ -209,7 +209,7 @@ TangentShapes::TangentShapes(std::uint64_t seed, std::uint32_t shapes, std::uint
 /// cuts coincide. That point is then in all discs above, too, so that all overlap on the way.
 ///
 /// Half of the gaps are -64 to 64 units in the last place of a float, a quarter as many of a double, and the rest up to 8 u
-/// of the reaches.
+/// of the extents.
 NearTangent near_tangent(Random& random, const TangentShapes& shapes) {
   NearTangent pair{};
   pair.a = &shapes.pose(random.below(shapes.size()));
@@ -233,7 +233,7 @@ constexpr std::uint32_t block = 10'000;  ///< pairs
 
 struct Tally {
   std::uint64_t pairs = 0, meeting = 0, above = 0, misses = 0, far_false_positives = 0, false_positives = 0;
-  double largest_gap = 0;  ///< of a false positive, per metre of reach
+  double largest_gap = 0;  ///< of a false positive, per metre of extent
   std::uint64_t bare_misses = 0;
   double deepest_bare_miss = 0;  ///< in units of u (P_A + P_B)
 
@@ -291,7 +291,7 @@ void count(Tally& tally, const NearTangent& pair, bool hit) {
   if (pair.meet && !hit) ++tally.misses;
   if (!hit || pair.meet || !pair.lone()) return;
   ++tally.false_positives;
-  const double gap = pair.gap / pair.reaches();
+  const double gap = pair.gap / pair.max_extents();
   tally.largest_gap = std::max(tally.largest_gap, gap);
   if (gap > detail::rounding::price) ++tally.far_false_positives;
 }
@@ -302,7 +302,7 @@ void count_bare(Tally& tally, const NearTangent& pair) {
   ++tally.bare_misses;
   tally.above += pair.above;
   tally.deepest_bare_miss =
-      std::max(tally.deepest_bare_miss, -pair.gap / (detail::rounding::unit_roundoff * pair.reaches()));
+      std::max(tally.deepest_bare_miss, -pair.gap / (detail::rounding::unit_roundoff * pair.max_extents()));
 }
 
 using Tallies = std::vector<Tally>;  ///< one an implementation
@@ -356,7 +356,7 @@ TEST(RoundingBound, NearTangentPairsAgainstExactArithmetic) {
     std::printf(
         "%s: %llu pairs, %llu meet, %llu of them by discs above their cuts, misses: %llu; false positives up "
         "to "
-        "%.2g m per metre of reach\n",
+        "%.2g m per metre of extent\n",
         name, static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.meeting),
         static_cast<unsigned long long>(tally.above), static_cast<unsigned long long>(tally.misses),
         tally.largest_gap);
@@ -376,7 +376,7 @@ TEST(RoundingBound, TheSamePairsBreakABareTest) {
   Tally tally;
   for (std::uint32_t i = 0; i < test::samples(500'000); ++i) count_bare(tally, near_tangent(random, shapes));
   std::printf(
-      "bare float test: %.1f %% of %llu meeting pairs missed, overlaps of up to %.1f u per metre of reach\n",
+      "bare float test: %.1f %% of %llu meeting pairs missed, overlaps of up to %.1f u per metre of extent\n",
       100.0 * static_cast<double>(tally.bare_misses) / static_cast<double>(tally.meeting),
       static_cast<unsigned long long>(tally.meeting), tally.deepest_bare_miss);
   EXPECT_GT(tally.bare_misses, tally.meeting / 20);
@@ -398,7 +398,7 @@ class Steps {
         at = turned_back(to, between);
     const Vec2 a = in_own_frame(*pair.a, pair.i), b = in_own_frame(*pair.b, pair.j);
     const QuadVector arm = turned(relative, {b.x, b.y});
-    const double far = length(between), p = pair.b->reach, s = pair.reaches();
+    const double far = length(between), p = pair.b->max_extent, s = pair.max_extents();
     note(1, {place.cosine, place.sine}, relative, terms::turn);
     note(2, {place.cosine * b.x - place.sine * b.y, place.sine * b.x + place.cosine * b.y}, arm,
          terms::arm * p);

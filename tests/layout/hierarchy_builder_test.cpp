@@ -38,8 +38,8 @@ class Reference {
  public:
   Reference(const Outline& outline, double threshold, detail::SplitRule rule)
       : threshold_(threshold), rule_(rule) {
-    hierarchy_.reach = detail::reach(outline.points);
-    margin_ = detail::rounding::query_margin * hierarchy_.reach +
+    hierarchy_.max_extent = detail::max_extent(outline.points);
+    margin_ = detail::rounding::query_margin * hierarchy_.max_extent +
               detail::rounding::outline_grid_steps * static_cast<double>(outline.grid_step);
   }
 
@@ -171,7 +171,7 @@ void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference) {
     ASSERT_EQ(hierarchy.primitive_ranges[i].begin, reference.primitive_ranges[i].begin) << "node " << i;
     ASSERT_EQ(hierarchy.primitive_ranges[i].end, reference.primitive_ranges[i].end) << "node " << i;
     EXPECT_NEAR(node.disc.radius, expected.disc.radius,
-                1e-6 * static_cast<double>(expected.disc.radius) + 0x1p-23 * hierarchy.reach)
+                1e-6 * static_cast<double>(expected.disc.radius) + 0x1p-23 * hierarchy.max_extent)
         << "node " << i;
   }
 }
@@ -264,7 +264,7 @@ TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
         builder.add_primitives(limited);
         expect_sound(limited);
         EXPECT_EQ(detail::height(limited), std::min(deepest, detail::height(whole)));
-        EXPECT_EQ(limited.reach, whole.reach);
+        EXPECT_EQ(limited.max_extent, whole.max_extent);
         for (std::uint32_t depth = 0; depth <= deepest; ++depth)
           ASSERT_EQ(discs(limited, depth), discs(whole, depth)) << depth << " of " << deepest;
       }
@@ -310,9 +310,9 @@ TEST(Bvh8Builder, SupportsAreThoseOfTheCut) {
                                           std::sin(angle) * static_cast<double>(disc.y) +
                                           static_cast<double>(disc.radius));
         }
-        const double unit = detail::rounding::unit_roundoff * shape.hierarchy.reach;
+        const double unit = detail::rounding::unit_roundoff * shape.hierarchy.max_extent;
         EXPECT_NEAR(static_cast<double>(heights[k]),
-                    largest + detail::rounding::support_margin * shape.hierarchy.reach, 10 * unit)
+                    largest + detail::rounding::support_margin * shape.hierarchy.max_extent, 10 * unit)
             << "direction " << k;
       }
     }

@@ -100,7 +100,7 @@ TEST(ProjectedHierarchy, CountsVerticesOfTrianglesAlone) {
   vertices.push_back({1e5f, 3e8f});
   vertices.push_back({std::numeric_limits<float>::infinity(), 0});
   const Hierarchy hierarchy = detail::projected_hierarchy(vertices, triangles);
-  EXPECT_EQ(hierarchy.reach, expected.reach);
+  EXPECT_EQ(hierarchy.max_extent, expected.max_extent);
   EXPECT_EQ(hierarchy.nodes[0].disc, expected.nodes[0].disc);
 }
 
@@ -115,8 +115,9 @@ TEST(Hierarchy, IsCheckedNodeByNode) {
   };
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   expect_rejected("no nodes", [](Hierarchy& h) { h.nodes.clear(); });
-  expect_rejected("reach", [](Hierarchy& h) { h.reach = 0; });
-  expect_rejected("reach", [](Hierarchy& h) { h.reach = std::numeric_limits<double>::quiet_NaN(); });
+  expect_rejected("extent", [](Hierarchy& h) { h.max_extent = 0; });
+  expect_rejected("extent",
+                  [](Hierarchy& h) { h.max_extent = std::numeric_limits<double>::quiet_NaN(); });
   expect_rejected("node 3", [](Hierarchy& h) { h.nodes[3].disc.x = nan; });
   expect_rejected("node 0", [](Hierarchy& h) { h.nodes[0].disc.y = 2; });
   expect_rejected("node 5", [](Hierarchy& h) { h.nodes[5].disc.radius = 0; });
@@ -170,7 +171,7 @@ void expect_smallest(const std::vector<Vec2>& points) {
   const detail::EnclosingDisc disc = detail::smallest_enclosing_disc(points);
   EXPECT_DOUBLE_EQ(disc.radius, radius_about(disc.centre.x, disc.centre.y, points))
       << points.size() << " points";
-  EXPECT_NEAR(disc.radius, smallest_radius(points), 2e-7 * detail::reach(points))
+  EXPECT_NEAR(disc.radius, smallest_radius(points), 2e-7 * detail::max_extent(points))
       << points.size() << " points";
 }
 
@@ -226,9 +227,10 @@ TEST(EnclosingDiscs, HoldTheirPointsAndAreAsSmallAsWelzls) {
       const double radius = std::sqrt(discs[i].square_radius);
       EXPECT_DOUBLE_EQ(radius, radius_about(discs[i].centre.x, discs[i].centre.y, points));
       const double smallest = std::sqrt(welzl(points).square_radius);
-      ASSERT_LE(radius, (1 + 1e-6) * smallest + 0x1p-24 * detail::reach(points))
+      ASSERT_LE(radius, (1 + 1e-6) * smallest + 0x1p-24 * detail::max_extent(points))
           << points.size() << " points";
-      EXPECT_NEAR(radius, detail::smallest_enclosing_disc(points).radius, 0x1p-24 * detail::reach(points));
+      EXPECT_NEAR(radius, detail::smallest_enclosing_disc(points).radius,
+                  0x1p-24 * detail::max_extent(points));
       if (points.size() <= 12) expect_smallest(points);
     }
   }

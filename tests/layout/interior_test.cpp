@@ -33,10 +33,10 @@ Contour contour_of_most_area(const Outline& outline) {
 
 /// How many there are; each is inside by what rounding.hpp asks for and not by much more.
 int expect_inside(const Outline& outline) {
-  const double reach = detail::reach(outline.points);
-  const detail::Interior found = detail::interior(outline, reach);
+  const double max_extent = detail::max_extent(outline.points);
+  const detail::Interior found = detail::interior(outline, max_extent);
   const Contour contour = contour_of_most_area(outline);
-  const long double margin = detail::rounding::query_margin * reach;
+  const long double margin = detail::rounding::query_margin * max_extent;
   int discs = 0;
   for (std::uint32_t k = 0; k < detail::block_width; ++k) {
     if (std::isinf(found.x[k])) {
@@ -107,12 +107,12 @@ TEST(Interior, WhatHasNoRoomHasNone) {
 TEST(Interior, WhatWasBuiltBeforeChangesNothingAndMemoryIsReused) {
   std::vector<Shape> shapes = test::synthetic_shapes(52, 48);
   detail::InteriorBuilder builder;
-  for (const Shape& shape : shapes) builder.build(shape.outline, shape.hierarchy.reach);
+  for (const Shape& shape : shapes) builder.build(shape.outline, shape.hierarchy.max_extent);
   for (const Shape& shape : shapes) {
     const std::size_t before = test::allocation_count();
-    const detail::Interior again = builder.build(shape.outline, shape.hierarchy.reach);
+    const detail::Interior again = builder.build(shape.outline, shape.hierarchy.max_extent);
     EXPECT_EQ(test::allocation_count(), before);
-    const detail::Interior fresh = detail::interior(shape.outline, shape.hierarchy.reach);
+    const detail::Interior fresh = detail::interior(shape.outline, shape.hierarchy.max_extent);
     EXPECT_GT(test::allocation_count(), before);
     EXPECT_TRUE(same(again, fresh));
   }
@@ -126,7 +126,8 @@ TEST(Interior, DiscsOfPeopleWhoMeetOverlap) {
   for (const Character& character : test::default_characters())
     for (Shape& shape : test::pose_shapes(character, 12)) shapes.push_back(std::move(shape));
   std::vector<detail::Interior> inside;
-  for (const Shape& shape : shapes) inside.push_back(detail::interior(shape.outline, shape.hierarchy.reach));
+  for (const Shape& shape : shapes)
+    inside.push_back(detail::interior(shape.outline, shape.hierarchy.max_extent));
   test::Random random(41);
   int meeting = 0, overlapping = 0;
   while (meeting < 3000) {
@@ -169,8 +170,8 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
     if (!implementation.supported()) continue;
     detail::InteriorBuilder builder(implementation);
     for (const Shape& shape : shapes) {
-      const detail::Interior found = builder.build(shape.outline, detail::reach(shape.outline.points));
-      const detail::Interior expected = plain.build(shape.outline, detail::reach(shape.outline.points));
+      const detail::Interior found = builder.build(shape.outline, detail::max_extent(shape.outline.points));
+      const detail::Interior expected = plain.build(shape.outline, detail::max_extent(shape.outline.points));
       ASSERT_TRUE(same(found, expected)) << implementation.name;
     }
   }
@@ -294,8 +295,9 @@ std::vector<Direction> directions(test::Random& random) {
 }
 
 detail::Profile profile_of(const Shape& shape) {
-  const double reach = shape.hierarchy.reach;
-  detail::Profile result = detail::profile(shape.outline, detail::interior(shape.outline, reach), reach);
+  const double max_extent = shape.hierarchy.max_extent;
+  detail::Profile result =
+      detail::profile(shape.outline, detail::interior(shape.outline, max_extent), max_extent);
   std::vector<float> x, y, radius;
   for (const std::uint32_t node : cut(shape.hierarchy, all_depths)) {
     const Disc& disc = shape.hierarchy.nodes[node].disc;
@@ -303,7 +305,7 @@ detail::Profile profile_of(const Shape& shape) {
   }
   const auto count = static_cast<std::uint32_t>(x.size());
   x.resize(count + 4), y.resize(count + 4), radius.resize(count + 4);
-  const detail::Outer found = detail::outer(result, x.data(), y.data(), radius.data(), count, reach);
+  const detail::Outer found = detail::outer(result, x.data(), y.data(), radius.data(), count, max_extent);
   for (std::uint32_t k = 0; k < detail::profile_sectors; ++k) result.sectors[k].outer = found[k];
   return result;
 }
@@ -318,7 +320,7 @@ constexpr double widest_sector = 0.246;  ///< radians, those about a quadrant's 
 /// Returns: of how many sectors something is known of the inside.
 std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
   const detail::Profile profile = profile_of(shape);
-  const double reach = shape.hierarchy.reach;
+  const double max_extent = shape.hierarchy.max_extent;
   const std::span<const Vec2> contour = detail::largest_contour(shape.outline);
   for (const Direction& d : directions(random)) {
     const detail::Sector& sector = profile.sectors[sector_of(d)];
@@ -330,7 +332,7 @@ std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
       const double out = fraction * static_cast<double>(sector.inner);
       EXPECT_GE(test::depth_in_contour<double>(contour, static_cast<double>(profile.x) + out * d.x,
                                                static_cast<double>(profile.y) + out * d.y),
-                inner_margin * reach);
+                inner_margin * max_extent);
     }
     double farthest = -HUGE_VAL, behind = -HUGE_VAL;
     for (const std::uint32_t node : cut(shape.hierarchy, all_depths)) {
@@ -338,9 +340,9 @@ std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
       farthest = std::max(farthest, along(disc.x, disc.y) + static_cast<double>(disc.radius));
     }
     for (const Vec2 p : shape.outline.points) behind = std::max(behind, -along(p.x, p.y));
-    EXPECT_GE(sector.outer, farthest + outer_margin * reach);
-    EXPECT_LE(sector.outer, farthest + widest_sector * 2 * reach);
-    EXPECT_LE(sector.extent, behind - extent_margin * reach);
+    EXPECT_GE(sector.outer, farthest + outer_margin * max_extent);
+    EXPECT_LE(sector.outer, farthest + widest_sector * 2 * max_extent);
+    EXPECT_LE(sector.extent, behind - extent_margin * max_extent);
   }
   return static_cast<std::uint32_t>(std::count_if(std::begin(profile.sectors), std::end(profile.sectors),
                                                   [](const detail::Sector& s) { return s.inner > 0; }));

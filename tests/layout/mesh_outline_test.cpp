@@ -237,10 +237,11 @@ TEST(MeshOutline, RefusesBadInput) {
   EXPECT_EQ(complaint_about({.between = {1, 1}}), "outline: between 1 and 1 m there is nothing");
   EXPECT_EQ(complaint_about({.between = {std::numeric_limits<float>::quiet_NaN(), 1}}),
             "outline: between nan and 1 m there is nothing");
-  for (const auto& [size, reach] : {std::pair(0.0f, "0"), {1e-8f, "4e-08"}, {1e6f, "4e+06"}}) {
+  for (const auto& [size, max_extent] : {std::pair(0.0f, "0"), {1e-8f, "4e-08"}, {1e6f, "4e+06"}}) {
     soup = frame();
     for (Vec3& p : soup.positions) p = {size * p.x, size * p.y, p.z};
-    EXPECT_EQ(complaint_about({}), std::string("outline: reach ") + reach + " m is outside 1e-6 to 1e6 m");
+    EXPECT_EQ(complaint_about({}),
+              std::string("outline: extent ") + max_extent + " m is outside 1e-6 to 1e6 m");
   }
   soup = {};
   EXPECT_EQ(complaint_about({}), "outline: no triangles");
@@ -257,7 +258,7 @@ TEST(MeshOutline, RefusesBadInput) {
     two[soup.positions.size() + 3].x = 1e9f;
     EXPECT_EQ(
         test::complaint([&] { outlines(two, soup.positions.size(), soup.triangles, {.holes = holes}); }),
-        "pose 1: outline: reach 1e+09 m is outside 1e-6 to 1e6 m");
+        "pose 1: outline: extent 1e+09 m is outside 1e-6 to 1e6 m");
   }
   EXPECT_THROW(outlines(soup.positions, 7, soup.triangles), std::invalid_argument);
   EXPECT_THROW(outlines(default_male(), sample_poses(default_male(), 400),

@@ -92,7 +92,8 @@ TEST(OutlineFromPolygons, RejectsWhatIsNone) {
   expect("polygon 0: 0 different corners", {{}});
   expect("polygon 0: it has no area", {{{0, 0}, {1, 1}, {2, 2}}});
   expect("polygon 1: corner 2 is not finite", {footprint, {{0, 0}, {1, 0}, {nan, 1}}});
-  expect("outline: reach 1414213.5623730961 m is outside 1e-6 to 1e6 m", {{{0, 0}, {1e6f, 0}, {1e6f, 1e6f}}});
+  expect("outline: extent 1414213.5623730961 m is outside 1e-6 to 1e6 m",
+         {{{0, 0}, {1e6f, 0}, {1e6f, 1e6f}}});
 }
 
 // ---- Vertices that decide the disc of a pose without its outline
@@ -105,7 +106,7 @@ struct FlatSoup {
 };
 
 /// Of kinds: anywhere, on a line, on a circle, on few points of a grid, flat and away from the origin, where others decide
-/// the reach than the disc. The last vertex is far and in no triangle.
+/// the extent than the disc. The last vertex is far and in no triangle.
 FlatSoup random_flat_soup(test::Random& random, int kind) {
   FlatSoup soup;
   const std::uint32_t count = 3 + random.below(40);
@@ -138,9 +139,9 @@ TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
     builder.contour(outline, 0.01f, detail::SplitRule::centroid, expected, 0);
     builder.root(extremes.points(), extremes.grid_step(), root);
     ASSERT_EQ(root.nodes.size(), 1u);
-    EXPECT_EQ(root.reach, expected.reach);
+    EXPECT_EQ(root.max_extent, expected.max_extent);
     const Disc &disc = root.nodes[0].disc, &other = expected.nodes[0].disc;
-    const double unit = 0x1p-23 * root.reach;
+    const double unit = 0x1p-23 * root.max_extent;
     EXPECT_NEAR(disc.radius, other.radius, unit);
     for (std::size_t v = 0; v + 1 < soup.positions.size(); ++v)
       ASSERT_LE(std::hypot(static_cast<double>(soup.positions[v].x) - static_cast<double>(disc.x),

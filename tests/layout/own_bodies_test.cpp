@@ -146,14 +146,14 @@ TEST(OwnBodies, AreRefusedWithAReason) {
     return test::complaint([&] { spheres_from_capsules({&capsule, 1}, error); });
   };
   EXPECT_EQ(of_capsule({{0, 0, 0}, {0, 0, 1}, -1}, 0.01f),
-            "spheres of capsules: capsule 0: expected a radius of at least 0 and a reach of 1e-6 to 1e6 m, "
-            "found a radius of -1 and a reach of 0");
+            "spheres of capsules: capsule 0: expected a radius of at least 0 and an extent of 1e-6 to 1e6 m, "
+            "found a radius of -1 and an extent of 0");
   EXPECT_TRUE(test::has(of_capsule({{0, 0, 0}, {0, 0, 1}, 0.1f}, 1e-7f), "expected an error above 1.049"));
   EXPECT_TRUE(test::has(of_capsule({{0, 0, 0}, {0, 0, 1000}, 0.1f}, 1e-2f),
                         "expected an error that 4096 spheres keep, found 0.01 m"));
   for (const BodySet::Capsule& bad :
        {BodySet::Capsule{{0, 0, NAN}, {0, 0, 1}, 0.1f}, BodySet::Capsule{{0, 0, 1}, {0, NAN, 0}, 0.1f}})
-    EXPECT_TRUE(test::has(of_capsule(bad, 1e-2f), "a reach of nan"));
+    EXPECT_TRUE(test::has(of_capsule(bad, 1e-2f), "an extent of nan"));
   const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const auto of_square = [&](Heights heights, float error) {
     return test::complaint([&] { spheres_from_polygons({&square, 1}, heights, error); });

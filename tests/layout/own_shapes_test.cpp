@@ -14,7 +14,7 @@ namespace {
 
 using test::Random;
 
-/// How much larger than the smallest disc a node may be, times the reach.
+/// How much larger than the smallest disc a node may be, times the extent.
 constexpr double room_of_nodes =
     detail::rounding::query_margin + detail::rounding::conservative_margin + 1e-6;
 
@@ -43,7 +43,7 @@ TEST(ShapeFromDiscs, KeepsDiscsInTheirOrderAndEnlargesThemByRoundingAlone) {
       EXPECT_EQ(leaf.x, discs[i].x);
       EXPECT_EQ(leaf.y, discs[i].y);
       EXPECT_GT(leaf.radius, discs[i].radius);
-      EXPECT_LT(leaf.radius, double{discs[i].radius} + 1.8e-6 * hierarchy.reach);
+      EXPECT_LT(leaf.radius, double{discs[i].radius} + 1.8e-6 * hierarchy.max_extent);
     }
     EXPECT_LE(detail::height(hierarchy), count == 1 ? 0 : count - 1);
   }
@@ -67,16 +67,16 @@ TEST(ShapeFromDiscs, NodesAreTheSmallestDiscs) {
       const double root_x = root.x, root_y = root.y, away = 0.3 * std::exp(random.uniform(-8, 0)),
                    angle = random.uniform(-4, 4);
       EXPECT_LE(root.radius, radius_about(root_x + away * std::cos(angle), root_y + away * std::sin(angle)) +
-                                 room_of_nodes * hierarchy.reach)
+                                 room_of_nodes * hierarchy.max_extent)
           << k;
     }
   }
   const Hierarchy two = detail::disc_hierarchy(std::vector<Disc>{{-1, 0, 0.5f}, {1, 0, 0.25f}});
   EXPECT_NEAR(two.nodes[0].disc.x, -0.125, 1e-6);
-  EXPECT_NEAR(two.nodes[0].disc.radius, 1.375, room_of_nodes * two.reach);
+  EXPECT_NEAR(two.nodes[0].disc.radius, 1.375, room_of_nodes * two.max_extent);
   const Hierarchy in_one =
       detail::disc_hierarchy(std::vector<Disc>{{0.1f, 0, 0.01f}, {0, 0, 1}, {0, 0.2f, 0.1f}});
-  EXPECT_NEAR(in_one.nodes[0].disc.radius, 1, room_of_nodes * in_one.reach);
+  EXPECT_NEAR(in_one.nodes[0].disc.radius, 1, room_of_nodes * in_one.max_extent);
 }
 
 /// Asks about the pairs of a scene at each of three levels: a deeper one never adds a collision.
@@ -108,8 +108,8 @@ TEST(ShapeFromDiscs, RejectsWhatIsNoDisc) {
   expect_rejected({{std::nanf(""), 0, 1}}, "disc 0");
   expect_rejected({{0, infinite, 1}}, "disc 0");
   expect_rejected({{0, 0, infinite}}, "disc 0 of inf m");
-  expect_rejected({{2e6f, 0, 1}}, "reach");
-  expect_rejected({{0, 0, 1e-8f}}, "reach");
+  expect_rejected({{2e6f, 0, 1}}, "extent");
+  expect_rejected({{0, 0, 1e-8f}}, "extent");
   expect_rejected(std::vector<Disc>(5'000, Disc{0, 0, 1}), "5000 discs");
 }
 

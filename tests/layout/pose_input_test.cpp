@@ -177,7 +177,7 @@ TEST(PoseInput, IsRejectedWhereItDoesNotFit) {
   EXPECT_EQ(complaint_of(PosedVertices{vertices}),
             "shape: expected finite posed vertices, found others at index 7");
   vertices[7] = {3e6f, 0, 0};
-  EXPECT_EQ(complaint_of(PosedVertices{vertices}), "outline: reach 3e+06 m is outside 1e-6 to 1e6 m");
+  EXPECT_EQ(complaint_of(PosedVertices{vertices}), "outline: extent 3e+06 m is outside 1e-6 to 1e6 m");
   local[3].rows[2][1] = std::nan("");
   EXPECT_EQ(complaint_of(LocalPose{local}),
             "shape: expected finite joint transforms, found others at index 3");
@@ -291,7 +291,7 @@ TEST(ShapeBuilder, NeedsNoOutlineForTheRootAlone) {
       ASSERT_EQ(root.nodes.size(), 1u);
       EXPECT_EQ(root.nodes[0].disc, expected.nodes[0].disc);
       EXPECT_TRUE(root.nodes[0].is_leaf());
-      EXPECT_EQ(root.reach, expected.reach);
+      EXPECT_EQ(root.max_extent, expected.max_extent);
     }
   }
 }

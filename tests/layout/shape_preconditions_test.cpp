@@ -99,7 +99,7 @@ void name_a_leaf_block_64_times(Arrays& a) {
   a.own.roots = {{0, 0, 1, detail::first_row}};
   const std::uint32_t discs = 9 * detail::block_floats;
   a.own.trees = {{0, discs, detail::block_width, detail::block_width, 1}};
-  a.own.reach = {1};
+  a.own.max_extent = {1};
   const std::uint32_t first_inner = a.own.trees[0].first_inner();
   a.own.nodes.resize((first_inner + detail::block_width) * detail::inner_floats + detail::block_floats);
   const auto store_discs = [&](std::uint32_t at) {
@@ -127,13 +127,13 @@ const std::vector<Damage>& all_damage() {
   static const std::vector<Damage> all = {
       {"alignment",
        [](Arrays& a) {
-         a.beside.assign(1 + a.own.reach.size(), 1.0f);
-         a.last = [&a](auto& view) { view.reach = std::span<const float>(a.beside).subspan(1); };
+         a.beside.assign(1 + a.own.max_extent.size(), 1.0f);
+         a.last = [&a](auto& view) { view.max_extent = std::span<const float>(a.beside).subspan(1); };
        }},
       {"depths", [](Arrays& a) { a.own.depths[2] = a.own.depths[1]; }},
       {"depths", [](Arrays& a) { a.own.depths.clear(); }},
       {"sizes", [](Arrays& a) { a.own.inscribed.pop_back(); }},
-      {"sizes", [](Arrays& a) { a.own.reach.clear(); }},
+      {"sizes", [](Arrays& a) { a.own.max_extent.clear(); }},
       {"sizes", [](Arrays& a) { a.own.shape_contours.pop_back(); }},
       {"sizes", [](Arrays& a) { a.own.segment_margin.pop_back(); }},
       {"sizes",  // more profiles than kernels can name
@@ -141,7 +141,7 @@ const std::vector<Damage>& all_damage() {
          a.last = [](auto& view) {
            const auto many = [](auto&... spans) { ((spans = {spans.data(), std::size_t{70'000'000}}), ...); };
            view.depths = view.depths.first(1);
-           many(view.roots, view.trees, view.reach, view.inscribed, view.profiles, view.shape_contours,
+           many(view.roots, view.trees, view.max_extent, view.inscribed, view.profiles, view.shape_contours,
                 view.segment_margin);
          };
        }},
@@ -154,7 +154,7 @@ const std::vector<Damage>& all_damage() {
       {"single depth", [](Arrays& a) { a.own.depths[0] = 0; }, discs_alone},
       {"single depth", [](Arrays& a) { a.own.depths[0] = 0; }, two_levels},
       {"infinite rows", [](Arrays& a) { a.own.support[detail::support_stride + 3] = 1; }},
-      {"reaches", [](Arrays& a) { a.own.reach[1] = 0; }},
+      {"extents", [](Arrays& a) { a.own.max_extent[1] = 0; }},
       {"roots", [](Arrays& a) { a.own.roots[1].radius = 0; }, roots},  // of others a tree has the like
       {"supports", [](Arrays& a) { a.own.support.back() = nan; }},
       {"inscribed discs", [](Arrays& a) { a.own.inscribed[1].radius[3] = -1; }},
@@ -189,7 +189,7 @@ const std::vector<Damage>& all_damage() {
       {"numbers", [](Arrays& a) { a.smallest_disc() *= -1; }},
       {"single discs", [](Arrays& a) { a.own.roots[Arrays::finest - 1].row = detail::single_disc; }},
       {"single discs", [](Arrays& a) { a.own.roots[0].x += 0.01f; }},
-      {"reach of a level", [](Arrays& a) { a.own.reach[0] = 100; }},
+      {"extent of a level", [](Arrays& a) { a.own.max_extent[0] = 100; }},
       {"inner nodes", [](Arrays& a) { a.own.roots[Arrays::finest].radius *= 8; }},
       {"inner nodes", [](Arrays& a) { a.inner_node(a.node_of_no_block())[2] *= 8; }},
       {"inner nodes",  // a way that never ends
@@ -266,8 +266,8 @@ const std::vector<Damage>& named_damage() {
       {"roots 5: row 3", [](Arrays& a) { a.own.roots[2].row = detail::single_disc; }},
       {"support 3", [](Arrays& a) { a.own.support[3] = 1; }},
       {"support 70", [](Arrays& a) { a.own.support[70] = nan; }},
-      {"reach 1", [](Arrays& a) { a.own.reach[1] = 1e7f; }},
-      {"reach 2", [](Arrays& a) { a.own.reach[2] = nan; }},
+      {"max_extent 1", [](Arrays& a) { a.own.max_extent[1] = 1e7f; }},
+      {"max_extent 2", [](Arrays& a) { a.own.max_extent[2] = nan; }},
       {"inscribed 1", [](Arrays& a) { a.own.inscribed[1].radius[3] = nan; }},
       {"profiles 1", [](Arrays& a) { a.own.profiles[1].y = infinity; }},
       {"profiles 1", [](Arrays& a) { a.own.profiles[1].sectors[31].inner = nan; }},
@@ -436,8 +436,8 @@ const std::vector<Lie>& lies() {
       {"nodes", "belongs to none", [](Arrays& a) { a.radii()[0] = 1; }},
       {"nodes", "cover", [](Arrays& a) { a.discs()[4] += 0.01f; }},
       {"nodes", "cover", [](Arrays& a) { a.own.points[7].x *= 0.5f; }},
-      {"reach", "its discs say", [](Arrays& a) { a.own.reach[1] *= 0.9f; }},
-      {"reach", "the outline reaches", [](Arrays& a) { a.own.reach[0] *= 1.001f; }},
+      {"max_extent", "its discs say", [](Arrays& a) { a.own.max_extent[1] *= 0.9f; }},
+      {"max_extent", "the outline reaches", [](Arrays& a) { a.own.max_extent[0] *= 1.001f; }},
       {"support", "number 11", [](Arrays& a) { a.own.support[first_support + 11] -= 0.001f; }},
       {"support", "number 63", [](Arrays& a) { a.own.support[first_support + 63] += 0.001f; }},
       {"inscribed", "disc 2", [](Arrays& a) { a.own.inscribed[0].radius[2] += 0.01f; }},

@@ -45,7 +45,7 @@ class Walk {
 
   void visit(std::uint32_t node, const std::vector<std::uint32_t>& nodes_above, std::uint32_t level) {
     levels = std::max(levels, level);
-    if (node & detail::leaf_bit) return reach(node & ~detail::leaf_bit, nodes_above);
+    if (node & detail::leaf_bit) return max_extent(node & ~detail::leaf_bit, nodes_above);
     const detail::Bvh8::Block& block = tree_.blocks.at(node);
     for (std::uint32_t lane = 0; lane < detail::block_width; ++lane) {
       const Disc in_block{block.discs.x[lane], block.discs.y[lane], block.discs.radius[lane]};
@@ -60,7 +60,7 @@ class Walk {
     }
   }
 
-  void reach(std::uint32_t first, const std::vector<std::uint32_t>& nodes_above) {
+  void max_extent(std::uint32_t first, const std::vector<std::uint32_t>& nodes_above) {
     ASSERT_LE(first + detail::block_width, tree_.x.size());
     for (std::uint32_t i = first; i < std::min(first + detail::block_width, tree_.count); ++i)
       if (std::all_of(nodes_above.begin(), nodes_above.end(),
@@ -120,7 +120,7 @@ TEST(Bvh8, LinksLeadToTheRoot) {
 /// A binary tree in which every first child is a leaf: as deep as it has leaves.
 Hierarchy comb(std::uint32_t leaves) {
   Hierarchy hierarchy;
-  hierarchy.reach = leaves * 0.01;
+  hierarchy.max_extent = leaves * 0.01;
   for (std::uint32_t i = 0; i + 1 < leaves; ++i) {
     const float x = 0.01f * static_cast<float>(i);
     Hierarchy::Node inner, leaf;

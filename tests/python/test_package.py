@@ -548,7 +548,7 @@ class Sets(unittest.TestCase):
         walker = bch.default_pedestrian(stature=1.7)
         model = bch.BodyModel(walker, 64, draft=True)
         clip = bch.animate(model, 40)
-        self.assertTrue(clip.loops and clip.reach < 0.7, clip)
+        self.assertTrue(clip.loops and clip.bounding_radius < 0.7, clip)
         self.assertAlmostEqual(clip.end * bch.pedestrian_strides_per_second(1.2), 1, places=6)  # one stride
         for loops in (False, True):
             self.assertEqual(bch.animate(model, 40, loops=loops).loops, loops)

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double in_none = 1e9;  ///< protrusion of a piece that is in no sphere
 
-double reach_of(std::span<const Sphere> spheres) {
-  double reach = 0;
+double extent_of(std::span<const Sphere> spheres) {
+  double max_extent = 0;
   for (const Sphere& s : spheres)
-    reach = std::max(reach, std::hypot(double{s.x}, double{s.y}, double{s.z}) + double{s.radius});
-  return reach;
+    max_extent = std::max(max_extent, std::hypot(double{s.x}, double{s.y}, double{s.z}) + double{s.radius});
+  return max_extent;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ double CoveredTriangles::protrusion(const std::array<std::uint32_t, 3>& corners,
 void expect_covered(const CoveredTriangles& triangles, BodyPoser& poser, const Character& character,
                     const Pose& pose) {
   const std::span<const Sphere> spheres = poser.spheres(pose);
-  const double room = detail::rounding::sphere_margin * reach_of(spheres);
+  const double room = detail::rounding::sphere_margin * extent_of(spheres);
   EXPECT_LE(triangles.protrusion(pose_vertices(character, pose), spheres), -room * (1 - 1e-4));
 }
 

@@ -27,13 +27,13 @@ void expect_right_cut(Positions positions, Triangles triangles, const Heights& h
     validate(found);
     return expect(found, rounded(part, found.grid_step));
   }
-  float reach = 0;
-  for (const auto& [x, y, z] : part.positions) reach = std::max({reach, std::abs(x), std::abs(y)});
+  float max_extent = 0;
+  for (const auto& [x, y, z] : part.positions) max_extent = std::max({max_extent, std::abs(x), std::abs(y)});
   for (const auto& [a, b, c] : part.triangles)
     for (const std::uint32_t v : {b, c}) {
       const Vec3 &from = part.positions[a], &to = part.positions[v];
       EXPECT_LE(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y)),
-                std::max(0x1p-22f * reach, 2e-6f));
+                std::max(0x1p-22f * max_extent, 2e-6f));
     }
 }
 

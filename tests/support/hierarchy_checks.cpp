@@ -84,7 +84,7 @@ void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline) {
 void expect_leaves_below(const Hierarchy& hierarchy, float threshold) {
   for (const Hierarchy::Node& node : hierarchy.nodes)
     if (node.is_leaf()) {
-      EXPECT_LE(node.disc.radius, static_cast<double>(threshold) * (1 + 1e-6) + 4e-6 * hierarchy.reach);
+      EXPECT_LE(node.disc.radius, static_cast<double>(threshold) * (1 + 1e-6) + 4e-6 * hierarchy.max_extent);
     }
 }
 

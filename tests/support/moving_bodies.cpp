@@ -139,7 +139,8 @@ MotionCase random_motion(Random& random, AnimatedDiscs body) {
 
 double gap_at(const MotionCase& a, const MotionCase& b, double seconds) {
   const PathKey at_a = pose_at(a.path, seconds), at_b = pose_at(b.path, seconds);
-  const double apart = std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.reach() - b.shape.reach();
+  const double apart =
+      std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.bounding_radius() - b.shape.bounding_radius();
   if (apart > 0.1) return apart;
   const bool both_in_space = a.shape.in_space() && b.shape.in_space();
   double gap = std::numeric_limits<double>::infinity();

@@ -18,7 +18,7 @@ std::vector<Shape> simple_shapes(Random& random, std::uint32_t count);
 /// What the outlines of a pair do.
 struct Truth {
   bool cross;
-  double gap;  ///< metres per metre of both reaches, beside the steps of the grid
+  double gap;  ///< metres per metre of both extents, beside the steps of the grid
 };
 
 struct TouchingScene : PairScene {

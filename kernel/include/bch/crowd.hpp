@@ -197,7 +197,7 @@ class Crowd {
   /// Finds the pairs whose root discs, at the agents' levels, come within a margin of each other.
   /// They contain every pair that collides, and every pair with a clearance of at most the margin. For
   /// time_of_impact() use a margin of twice the longest displacement of an agent. Rounding may add pairs that
-  /// are farther apart by a few millionths of the margin, of their radii and of their shapes' reaches.
+  /// are farther apart by a few millionths of the margin, of their radii and of their shapes' extents.
   /// Units:   the margin is metres, from 0 to 2e9.
   Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;

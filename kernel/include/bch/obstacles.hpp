@@ -152,7 +152,7 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
 /// Only this agent moves. `neighbours` are pairs of an agent and another one, in any order: all that the move
 /// may come near. `obstacles` may be null. If nothing else moves, collide() with each of them then answers 0.
 /// An agent that collides with nothing has a depth of 0. Directions and touches (Penetration::Touch) are as
-/// in nearest_free() of pairs. With obstacles, depths include 30 um per metre of the move and of the reach.
+/// in nearest_free() of pairs. With obstacles, depths include 30 um per metre of the move and of the extent.
 /// Sizes:   one answer per agent; as many touches or none. Errors: also as nearest_free() of pairs.
 /// Memory:  allocates in every call.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> neighbours,

@@ -106,7 +106,7 @@ struct Penetration {
   /// Holds where the two touch after a move of nearest_free(): at the segments or spheres that separate last.
   /// Two segments touch at an end of one, and the normal is perpendicular to the other. Normals never point
   /// against the move. Depths include the rounding, so the two are then a few micrometres per metre of their
-  /// reaches apart. A leaf of more than 127 segments is treated as a disc, which may add its diameter.
+  /// extents apart. A leaf of more than 127 segments is treated as a disc, which may add its diameter.
   struct Touch {
     Vec3 point;   ///< relative to the first agent's position after the move, in the world's axes; metres
     Vec3 normal;  ///< of length 1 within 1e-6, from the second agent to the first; (0, 0, 0): no collision

@@ -32,7 +32,7 @@ class AnimatedShape:
         Whether the motion repeats. It then lasts at least 1 ms.
     """
 
-    __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count")
+    __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "bounding_radius", "nbytes", "chunk_count", "key_count")
 
     def __init__(self, times: npt.ArrayLike, discs: npt.ArrayLike, *, loops: bool = False) -> None:
         keys, all_discs = converted(times, f8, "times"), converted(discs, f4, "discs")
@@ -66,7 +66,7 @@ class AnimatedShape:
         info = _library.AnimatedShapeInfo()
         check(lib.bch_animated_shape_get_info(self._pointer, byref(info)))
         self.loops = bool(info.loops)
-        self.begin, self.end, self.reach = float(info.begin), float(info.end), float(info.reach)
+        self.begin, self.end, self.bounding_radius = float(info.begin), float(info.end), float(info.bounding_radius)
         self.nbytes, self.chunk_count, self.key_count = int(info.bytes), int(info.chunks), int(info.keys)
 
     def discs(self, seconds: float) -> Records:

@@ -19,14 +19,14 @@ constexpr std::uint32_t sample_pairs = 4000, exchanges = 4000, first_core = core
 /// Lists the pairs of spheres of two bodies that overlap.
 using Overlaps = std::vector<std::pair<std::uint16_t, std::uint16_t>>;
 
-double reach_on_ground(std::span<const std::vector<Sphere>> poses) {
-  double reach = 0;
+double extent_on_ground(std::span<const std::vector<Sphere>> poses) {
+  double max_extent = 0;
   for (const auto& spheres : poses)
     for (const Sphere& s : spheres) {
       const double x = double{s.x}, y = double{s.y};
-      reach = std::max(reach, std::sqrt(x * x + y * y) + double{s.radius});
+      max_extent = std::max(max_extent, std::sqrt(x * x + y * y) + double{s.radius});
     }
-  return reach;
+  return max_extent;
 }
 
 std::vector<Sphere> placed(const std::vector<Sphere>& spheres, const Rotation& turn, double x, double y) {
@@ -51,15 +51,15 @@ Overlaps overlaps(const std::vector<Sphere>& a, const std::vector<Sphere>& b) {
   return found;
 }
 
-/// Places the body beside itself, in random poses, anywhere in its reach, and keeps the collisions.
+/// Places the body beside itself, in random poses, anywhere in its extent, and keeps the collisions.
 std::vector<Overlaps> sample_collisions(std::span<const std::vector<Sphere>> poses, Random& random) {
-  const double reach = 2 * reach_on_ground(poses);
+  const double max_extent = 2 * extent_on_ground(poses);
   std::vector<Overlaps> collisions;
   for (std::uint32_t k = 0; k < sample_pairs; ++k) {
     const auto& a = poses[random.below(static_cast<std::uint32_t>(poses.size()))];
     const auto& b = poses[random.below(static_cast<std::uint32_t>(poses.size()))];
     const Rotation turn = rotation(random.uniform(2 * std::numbers::pi));
-    const double x = random.between(-reach, reach), y = random.between(-reach, reach);
+    const double x = random.between(-max_extent, max_extent), y = random.between(-max_extent, max_extent);
     if (Overlaps found = overlaps(a, placed(b, turn, x, y)); !found.empty())
       collisions.push_back(std::move(found));
   }

@@ -40,7 +40,7 @@ double scale_of(const Character& character, std::span<const Vec3> vertices) {
     double low = 0, high = 0;
     for (const Vec3& vertex : vertices) {
       const double at = double{vertex.*axis};
-      if (!(std::abs(at) <= rounding::largest_reach))
+      if (!(std::abs(at) <= rounding::largest_extent))
         throw std::invalid_argument(
             "character '" + character.name +
             "': expected vertices within 1e6 m of the origin of the rest pose, found one at " + shortest(at) +

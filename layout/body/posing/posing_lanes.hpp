@@ -36,15 +36,15 @@ class PosingLanes {
   static float take_roots(const SphereFields& of, std::uint32_t count, const float* least,
                           float scale) noexcept {
     const Float enlarged(scale);
-    Float reach(0.0f);
+    Float max_extent(0.0f);
     for (std::uint32_t s = 0; s < count; s += Simd::width) {
       const Float x = Simd::load(of.x + s), y = Simd::load(of.y + s), z = Simd::load(of.z + s);
       Float radius = Simd::max(xsimd::sqrt(Simd::load(of.radius + s)), Simd::load(least + s));
       radius = radius + enlarged * radius;
       Simd::store(of.radius + s, radius);
-      reach = Simd::max(xsimd::sqrt(x * x + y * y + z * z) + radius, reach);
+      max_extent = Simd::max(xsimd::sqrt(x * x + y * y + z * z) + radius, max_extent);
     }
-    return -Simd::least(-reach);
+    return -Simd::least(-max_extent);
   }
 
  public:

@@ -28,7 +28,7 @@ struct SphereFields {
 struct PosingLoops {
   /// Takes the centres, and sets each radius to the square of the distance of the sphere's farthest corner.
   void (*measure)(const SphereCorners& corners, const SphereFields& to) noexcept;
-  /// Replaces squares by their roots, at least `least`, enlarged by this fraction of themselves. Returns: the reach of the spheres.
+  /// Replaces squares by their roots, at least `least`, enlarged by this fraction of themselves. Returns: the extent of the spheres.
   float (*take_roots)(const SphereFields& of, std::uint32_t count, const float* least, float scale) noexcept;
 };
 

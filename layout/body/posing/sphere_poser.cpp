@@ -81,13 +81,13 @@ void SpherePoser::place_points(const Pose& pose) {
 }
 
 /// Sets radii to the distances of the farthest corners, and enlarges them by what was rounded, so that queries miss nothing. With P the
-/// reach and u the unit roundoff: a corner is off by
+/// extent and u the unit roundoff: a corner is off by
 ///
 ///     (cut)       u P sqrt(3)      for each cut above it: a rounding of each coordinate of a mean, and the mean of its ends' errors
 ///
 /// A distance r is off by 4 u r: u for each difference, 3 u of the square and so 1.5 u of the root for squares and sums, and its
 /// rounding, 0.5 u, is 3 u, of lengths that are themselves off by less than 2^-20. What is added and multiplied here rounds by less than
-/// 3 u of the sum. The reach is that of the enlarged spheres, which is at most 2^-16 larger than P.
+/// 3 u of the sum. The extent is that of the enlarged spheres, which is at most 2^-16 larger than P.
 void SpherePoser::fit_radii() {
   constexpr float unit = 0x1p-24f;
   constexpr float distance_error = 8 * unit;  // 4 of the distance, 3 of what follows
@@ -99,14 +99,15 @@ void SpherePoser::fit_radii() {
                 fields);
   for (std::size_t s = spheres; s < x_.size(); ++s)
     x_[s] = x_[s - 1], y_[s] = y_[s - 1], z_[s] = z_[s - 1], radius_[s] = radius_[s - 1];
-  const float reach =
+  const float max_extent =
       loops.take_roots(fields, static_cast<std::uint32_t>(x_.size()), least_.data(), distance_error);
-  if (!(double{reach} >= rounding::smallest_reach && double{reach} <= rounding::largest_reach))
+  if (!(double{max_extent} >= rounding::smallest_extent && double{max_extent} <= rounding::largest_extent))
     throw std::domain_error("character '" + model_.character->name +
-                            "': expected a pose with a reach of 1e-6 to 1e6 m, found " + shortest(reach));
-  // 1.01 for what the margin itself adds to the reach, and what is rounded here.
+                            "': expected a pose with an extent of 1e-6 to 1e6 m, found " +
+                            shortest(max_extent));
+  // 1.01 for what the margin itself adds to the extent, and what is rounded here.
   const float margin =
-      reach *
+      max_extent *
       static_cast<float>(1.01 * (rounding::sphere_margin + 1.7321 * max_cuts_ * rounding::unit_roundoff));
   for (float& radius : radius_) radius += margin;
 }

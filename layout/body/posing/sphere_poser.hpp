@@ -26,7 +26,7 @@ class SpherePoser {
 
   /// Poses all spheres.
   /// Returns: the spheres by slots, valid until the next call.
-  /// Errors:  as Skinner::place_bones_of(); throws std::domain_error on a position that is not finite, and on a reach outside 1e-6 to
+  /// Errors:  as Skinner::place_bones_of(); throws std::domain_error on a position that is not finite, and on an extent outside 1e-6 to
   ///          1e6 m.
   SphereSlots pose(const Pose& pose);
 

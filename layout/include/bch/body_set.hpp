@@ -35,7 +35,7 @@ class BodySet {
   /// Makes bodies of spheres, in metres, relative to their agents.
   /// Queries number the spheres of a body in the given order.
   /// Errors:  throws std::invalid_argument, naming the body, if it has no spheres or more than 4096, if a
-  ///          sphere is not finite or has a negative radius, and if the reach is outside 1e-6 to 1e6 m;
+  ///          sphere is not finite or has a negative radius, and if the extent is outside 1e-6 to 1e6 m;
   ///          std::length_error beyond 2^32 bodies.
   explicit BodySet(std::span<const std::vector<Sphere>> bodies);
   BodySet(BodySet&&) noexcept;
@@ -69,8 +69,8 @@ class BodySet {
 
 /// Returns spheres that cover capsules, such as those of a ragdoll: one row of spheres per capsule.
 /// The spheres protrude from the capsules by at most `error`.
-/// Units:   metres; `error` must exceed 1e-6 of each capsule's reach.
-/// Errors:  throws std::invalid_argument if there are no capsules, a radius is negative, a reach is outside
+/// Units:   metres; `error` must exceed 1e-6 of each capsule's extent.
+/// Errors:  throws std::invalid_argument if there are no capsules, a radius is negative, an extent is outside
 ///          1e-6 to 1e6 m, or `error` is too small or needs more than 4096 spheres (naming the capsule).
 std::vector<Sphere> spheres_from_capsules(std::span<const BodySet::Capsule> capsules, float error = 0.005f);
 

@@ -7,7 +7,7 @@
 
 namespace bch {
 
-// The reach of a body is the largest distance of its points from the origin of its frame, in metres.
+// The extent of a body is the largest distance of its points from the origin of its frame, in metres.
 
 /// Represents a point or vector of the ground plane, in metres.
 struct Vec2 {

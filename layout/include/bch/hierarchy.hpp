@@ -40,7 +40,7 @@ struct Hierarchy {
   };
 
   std::vector<Node> nodes;  ///< the root first; never empty
-  double reach = 0;         ///< metres: largest distance of a primitive's point from the origin
+  double max_extent = 0;    ///< metres: largest distance of a primitive's point from the origin
 
   // The primitives of the nodes. Exact leaves need them: leaves that queries test by their segments, not by
   // their discs. Without exact leaves, all of these may be empty.
@@ -54,7 +54,7 @@ static_assert(sizeof(Hierarchy::Node) == 16);
 
 /// Checks what other functions expect of a hierarchy.
 /// There is at least one node, children follow their parents, discs are finite with a radius above 0 and a
-/// centre within the reach, and the reach is 1e-6 to 1e6 m.
+/// centre within the extent, and the extent is 1e-6 to 1e6 m.
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 

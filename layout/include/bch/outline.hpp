@@ -20,7 +20,7 @@ namespace bch {
 struct Outline {
   std::vector<Vec2> points;                        ///< metres, in the shape's frame; used as given
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
-  /// The step of the grid to which the points were rounded, metres, at most the reach; 0: not rounded.
+  /// The step of the grid to which the points were rounded, metres, at most the extent; 0: not rounded.
   /// Discs are enlarged by 1.5 steps, so that they enclose the points before rounding. The step of
   /// OutlineBuilder is a power of two, and coordinates are the step times integers of at most 2^23, which
   /// floats represent exactly.
@@ -41,7 +41,7 @@ double area(const Outline& outline);
 /// corner equal to the one before it is ignored.
 /// Units:   metres, in the shape's frame, whose origin is the agent's position.
 /// Errors:  throws std::invalid_argument if there are no polygons, or if one, which is named, has fewer than
-///          three corners, no area, a corner that is not finite, or a reach outside 1e-6 to 1e6 m.
+///          three corners, no area, a corner that is not finite, or an extent outside 1e-6 to 1e6 m.
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
 
 /// Returns an outline as well-known text: a MULTIPOLYGON, which obstacles_from_wkt() also reads.
@@ -54,9 +54,9 @@ std::string to_wkt(const Outline& outline);
 std::string to_geojson(const Outline& outline);
 
 /// Checks what hierarchies and shape sets expect of an outline, in linear time.
-/// There is at least one contour, offsets are in order, points are finite, the reach is 1e-6 to 1e6 m, and no
+/// There is at least one contour, offsets are in order, points are finite, the extent is 1e-6 to 1e6 m, and no
 /// contour is clockwise (an area that rounding to the grid may have made negative is allowed).
-/// Returns: the reach of the points.
+/// Returns: the extent of the points.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.
 double validate(const Outline& outline);
 

@@ -21,7 +21,7 @@ struct BuildImplementation;
 namespace bch {
 
 /// Finds the outline of one mesh in pose after pose: the outer boundary of its triangles, seen from above.
-/// The result is exact on a grid whose step is 2^-23 times the least power of two above the reach (0.12 um
+/// The result is exact on a grid whose step is 2^-23 times the least power of two above the extent (0.12 um
 /// for a person). The mesh may be open or non-manifold, with duplicated or degenerate triangles; holes are
 /// left out. The result depends on the union of the triangles alone. "Outlines" in layout/README.md has the
 /// rules.
@@ -43,7 +43,7 @@ class OutlineBuilder {
   /// Allocates nothing once the longest outline has been built.
   /// Units:   metres; the ground is x-y.
   /// Errors:  throws std::invalid_argument if the number of positions is not that of the vertices, a
-  ///          coordinate is not finite, the reach is outside 1e-6 to 1e6 m, or every triangle is a point.
+  ///          coordinate is not finite, the extent is outside 1e-6 to 1e6 m, or every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
   /// Writes the outline of positions with heights.
   /// Returns: the interval of heights of all vertices that triangles use.
@@ -80,7 +80,7 @@ struct OutlineOptions {
 /// and parts within 1e-6 m of the origin, count as nothing.
 /// Sizes:   triangle indices are below positions.size(); vertices without triangles are ignored.
 /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, a coordinate is
-///          not finite (z is checked only if `between` clips), the reach is outside 1e-6 to 1e6 m, or the
+///          not finite (z is checked only if `between` clips), the extent is outside 1e-6 to 1e6 m, or the
 ///          heights of `between` are NaN or do not ascend.
 Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                 const OutlineOptions& options = {});

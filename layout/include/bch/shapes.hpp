@@ -37,7 +37,7 @@ struct Shape {
 /// given order. Discs near each other should follow each other, because nodes of the tree group them in that
 /// order.
 /// Cost:    6 ms for 50 discs.
-/// Errors:  throws std::invalid_argument if there are no discs or more than 4096, if the reach is outside
+/// Errors:  throws std::invalid_argument if there are no discs or more than 4096, if the extent is outside
 ///          1e-6 to 1e6 m, or if a disc, which is named, is not finite or has no radius.
 Shape shape_from_discs(std::span<const Disc> discs);
 
@@ -57,7 +57,7 @@ struct Capsule {
 /// Makes a shape of capsules, such as the limbs of a body.
 /// The outline has one polygon per capsule, which encloses the capsule and protrudes from it by at most a
 /// tolerance.
-/// Units:   metres; the tolerance must exceed 2^-20 of the capsules' reach; the threshold is as above.
+/// Units:   metres; the tolerance must exceed 2^-20 of the capsules' extent; the threshold is as above.
 /// Errors:  throws std::invalid_argument if there are no capsules, if the tolerance is not positive or too
 ///          small, if a capsule, which is named, has no radius or lies beyond 1e6 m, and as
 ///          shape_from_polygons() does.
@@ -87,14 +87,14 @@ struct AnimatedDiscs {
 /// Checks what AnimatedShape expects of moving discs.
 /// Times are finite, within +-1e6 s, ascend and leave no gap. A chunk has at least two keys and 1 to 4096
 /// discs. All chunks have heights or none has; heights are within +-1e6 m. A clip that loops lasts at least 1
-/// ms. The reach is 1e-6 to 1e6 m.
+/// ms. The extent is 1e-6 to 1e6 m.
 /// Errors:  throws std::invalid_argument naming the chunk, the disc and the key.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents an animated body: a clip of a character, or other moving discs or spheres.
 /// Times outside the clip are clamped or, if the clip loops, wrap around, even if the last pose is not the
 /// first. Discs of animate() are stored exactly. Other discs are rounded outward to 16-bit numbers, by less
-/// than 0.15 mm per metre of reach. "Animated shapes" in layout/README.md describes the tree. A moved-from
+/// than 0.15 mm per metre of extent. "Animated shapes" in layout/README.md describes the tree. A moved-from
 /// object can only be assigned to or destroyed.
 class AnimatedShape {
  public:
@@ -115,7 +115,7 @@ class AnimatedShape {
   bool in_space() const noexcept;
   /// Returns the radius about the agent's position that encloses all discs at every time, metres.
   /// For spheres, their discs as seen from above are enclosed.
-  double reach() const noexcept;
+  double bounding_radius() const noexcept;
   std::size_t bytes() const noexcept;
   /// Returns the discs at a time as stored, in the order of AnimatedDiscs.
   /// For spheres, returns their discs as seen from above.
@@ -143,7 +143,7 @@ class AnimatedShape {
 enum class Leaves {
   discs,  ///< the discs of the leaves overlap
   /// The discs overlap, and segments of the outlines in the two leaves come within 1.7 um per metre of the
-  /// sum of both reaches (exact leaves).
+  /// sum of both extents (exact leaves).
   /// This applies to agents at depth all_depths whose shapes have exact leaves (see ShapeSetPlan). For other
   /// agents, and for leaves of more than 127 segments, discs decide.
   segments,

@@ -58,7 +58,7 @@ void expect_body(const bch_animated_shape* shape, const AnimatedShape& expected)
   EXPECT_EQ(info.loops != 0, expected.loops());
   EXPECT_EQ(info.begin, expected.begin());
   EXPECT_EQ(info.end, expected.end());
-  EXPECT_EQ(info.reach, expected.reach());
+  EXPECT_EQ(info.bounding_radius, expected.bounding_radius());
   EXPECT_EQ(info.bytes, expected.bytes());
   EXPECT_GE(info.chunks, 1u);
   EXPECT_GE(info.keys, 2 * info.chunks);

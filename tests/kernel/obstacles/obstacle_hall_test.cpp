@@ -76,8 +76,8 @@ TEST_F(ObstacleHall, IsLeftOverTheNearestSegment) {
   penetration(set, crowd.agents(), obstacles, ways);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double from_centre = std::hypot(crowd.x[i], crowd.y[i]),
-                 reach = 2 * double{set.bounding_radius(crowd.shape[i])};
-    EXPECT_NEAR(double{ways[i].depth}, 200 - from_centre, reach);
+                 max_extent = 2 * double{set.bounding_radius(crowd.shape[i])};
+    EXPECT_NEAR(double{ways[i].depth}, 200 - from_centre, max_extent);
     crowd.x[i] += double{ways[i].depth} * ways[i].x, crowd.y[i] += double{ways[i].depth} * ways[i].y;
   }
   collide(set, crowd.agents(), obstacles, hits, {.leaves = Leaves::discs});

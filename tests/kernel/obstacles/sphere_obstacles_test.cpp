@@ -16,7 +16,7 @@ using test::ObstacleScene;
 using test::Random;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-constexpr long double rounding = 1e-8L;  ///< metres: headings are within 3e-10, times a reach
+constexpr long double rounding = 1e-8L;  ///< metres: headings are within 3e-10, times an extent
 
 /// Returns the least gap between spheres and an obstacle.
 long double gap(const std::vector<Sphere>& spheres, const Agents& agents, std::uint32_t agent,

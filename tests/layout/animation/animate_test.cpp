@@ -80,11 +80,12 @@ void expect_as_said(const AnimatedDiscs& animated, float seconds) {
     before = chunk.times.back();
     EXPECT_TRUE(std::is_sorted(chunk.times.begin(), chunk.times.end()));
     ASSERT_EQ(chunk.keys.size(), chunk.times.size() * chunk.disc_count);
-    float reach = 0;
-    for (const Disc& disc : chunk.keys) reach = std::max({reach, std::abs(disc.x), std::abs(disc.y)});
-    for (const float z : chunk.z) reach = std::max(reach, std::abs(z));
+    float max_extent = 0;
+    for (const Disc& disc : chunk.keys)
+      max_extent = std::max({max_extent, std::abs(disc.x), std::abs(disc.y)});
+    for (const float z : chunk.z) max_extent = std::max(max_extent, std::abs(z));
     ASSERT_EQ(chunk.z.size(), chunk.keys.size());
-    const double step = std::exp2(std::ceil(std::log2(double{reach})) - 15);
+    const double step = std::exp2(std::ceil(std::log2(double{max_extent})) - 15);
     for (const Disc& disc : chunk.keys)
       for (const float number : {disc.x, disc.y, disc.radius})
         EXPECT_EQ(std::remainder(double{number}, step), 0.0) << number;

@@ -28,7 +28,7 @@ TEST(AnimatedShape, HasItsDiscsAtEveryTime) {
   EXPECT_EQ(once.begin(), 1);
   EXPECT_EQ(once.end(), 4);
   EXPECT_FALSE(once.loops());
-  EXPECT_NEAR(once.reach(), 7, 1e-9);
+  EXPECT_NEAR(once.bounding_radius(), 7, 1e-9);
   EXPECT_EQ(once.discs(-5), first);
   EXPECT_EQ(once.discs(2), half);
   EXPECT_EQ(once.discs(3), last);  // where a chunk begins its discs count alone
@@ -110,8 +110,8 @@ TEST(AnimatedShape, HasRoomForAllDiscsThatAreAllowed) {
     expect_tree(AnimatedShape(test::loose_discs(random, discs)).tree().chunks[0]);
 }
 
-/// Discs of numbers of 16 bits are kept, others held by ones that reach out by less than 1.5e-4 of the reach; spheres alike, by less than
-/// 2e-4 of the reach in space.
+/// Discs of numbers of 16 bits are kept, others held by ones that reach out by less than 1.5e-4 of the extent; spheres alike, by less than
+/// 2e-4 of the extent in space.
 TEST(AnimatedShape, RoundsOutward) {
   Random random(3115);
   int kept = 0, moved = 0;
@@ -119,7 +119,7 @@ TEST(AnimatedShape, RoundsOutward) {
     const bool in_space = i % 2 == 0;
     const double size = std::exp(random.uniform(-12, 12)), tall = size * std::exp(random.uniform(-3, 1));
     AnimatedChunk chunk{{0, 1}, 1 + random.below(4), {}};
-    double reach = 0;
+    double max_extent = 0;
     for (std::uint32_t k = 0; k < 2 * chunk.disc_count; ++k) {
       chunk.keys.push_back(
           {static_cast<float>(random.uniform(-size, size)), static_cast<float>(random.uniform(-size, size)),
@@ -127,7 +127,7 @@ TEST(AnimatedShape, RoundsOutward) {
       const double z = in_space ? random.uniform(-tall, tall) : 0;
       if (in_space) chunk.z.push_back(static_cast<float>(z));
       const Disc& disc = chunk.keys.back();
-      reach = std::max(reach, std::hypot(double{disc.x}, double{disc.y}, z) + double{disc.radius});
+      max_extent = std::max(max_extent, std::hypot(double{disc.x}, double{disc.y}, z) + double{disc.radius});
     }
     const AnimatedShape shape(moving({chunk}));
     std::vector<Sphere> rounded;
@@ -144,11 +144,11 @@ TEST(AnimatedShape, RoundsOutward) {
                      in_space ? double{rounded[k].z} - double{chunk.z[k]} : 0);
       const double room = double{rounded[k].radius} - double{disc.radius};
       EXPECT_LE(away, room * (1 + 1e-12)) << i;
-      EXPECT_LT(away + room, (in_space ? 2e-4 : 1.5e-4) * reach) << i;
+      EXPECT_LT(away + room, (in_space ? 2e-4 : 1.5e-4) * max_extent) << i;
       moved += away > 0;
     }
     if (in_space) continue;
-    EXPECT_GE(shape.reach(), reach * (1 - 1e-12));
+    EXPECT_GE(shape.bounding_radius(), max_extent * (1 - 1e-12));
     AnimatedChunk again{{0, 1}, chunk.disc_count, {}};
     const double widest = std::max(double{std::abs(rounded[0].x)}, double{std::abs(rounded[0].y)});
     bool small = true;
@@ -299,7 +299,7 @@ TEST(AnimatedShape, RefusesWhatDoesNotMove) {
   Body large = moving(two_chunks());
   large.chunks[0].keys[0].radius = 2e6f;
   EXPECT_EQ(test::complaint([&] { AnimatedShape{large}; }),
-            "hierarchy: reach 2e+06 m is outside 1e-6 to 1e6 m");
+            "hierarchy: extent 2e+06 m is outside 1e-6 to 1e6 m");
 }
 
 TEST(AnimatedShape, RefusesLoopsOfNextToNoTime) {

@@ -114,7 +114,7 @@ struct Chain {
   detail::AlignedVector<std::uint32_t> depths{all_depths};
   detail::AlignedVector<detail::Root> roots{{0, 0, 1, detail::first_row}};
   detail::AlignedVector<detail::Tree> trees;
-  detail::AlignedVector<float> reach{1}, nodes;
+  detail::AlignedVector<float> max_extent{1}, nodes;
 
   explicit Chain(std::uint32_t blocks) {
     const std::uint32_t discs = blocks * detail::block_floats;
@@ -140,7 +140,7 @@ struct Chain {
 
   detail::ShapeArrays arrays() const {
     detail::ShapeArrays all{};
-    all.depths = depths, all.roots = roots, all.trees = trees, all.reach = reach, all.nodes = nodes;
+    all.depths = depths, all.roots = roots, all.trees = trees, all.max_extent = max_extent, all.nodes = nodes;
     return all;
   }
 };
@@ -383,11 +383,11 @@ TEST(SectionChecksum, IsThatOfTheWhole) {
     for (int i = 0; i < 20; ++i) {
       detail::baked::SectionChecksum pieces(section);
       for (int step = 0; step < 5; ++step)
-        pieces.reach(random.below(static_cast<std::uint32_t>(size) + 1000));
+        pieces.max_extent(random.below(static_cast<std::uint32_t>(size) + 1000));
       EXPECT_EQ(pieces.finish(), whole) << size;
     }
     detail::baked::SectionChecksum beyond(section);
-    beyond.reach(std::numeric_limits<std::size_t>::max());
+    beyond.max_extent(std::numeric_limits<std::size_t>::max());
     EXPECT_EQ(beyond.finish(), whole) << size;
     section.resize(size + 8);
     EXPECT_EQ(detail::baked::SectionChecksum(std::span(section).first(size)).finish(8),

@@ -253,15 +253,15 @@ class ImportData : public testing::Test {
     detail::Skinner skinner(c);
     for (std::uint32_t clip = 0; clip < c.clips.size(); ++clip)
       for (const float fraction : {0.0f, 0.13f, 0.29f, 0.5f, 0.61f, 0.77f, 0.92f, 1.0f}) {
-        float reach = 0;
+        float max_extent = 0;
         Eigen::AlignedBox3f box;
         for (const Vec3& position : skinner.pose({clip, fraction * c.clips[clip].seconds})) {
-          reach = std::max(reach, detail::to_eigen(position).head<2>().norm());
+          max_extent = std::max(max_extent, detail::to_eigen(position).head<2>().norm());
           box.extend(detail::to_eigen(position));
         }
         const std::string place = c.name + ", " + c.clips[clip].name + " at " + std::to_string(fraction);
-        EXPECT_LT(reach, 1.0f) << place;
-        EXPECT_GT(reach, 0.15f) << place;
+        EXPECT_LT(max_extent, 1.0f) << place;
+        EXPECT_GT(max_extent, 0.15f) << place;
         EXPECT_NEAR(box.min().z(), 0, 0.2f) << place;
         EXPECT_GT(box.max().z(), 0.7f) << place;
         EXPECT_LT(box.max().z(), 2.2f) << place;

@@ -1204,7 +1204,7 @@ typedef struct bch_animated_shape_info {
   uint32_t size; /**< sizeof(bch_animated_shape_info) */
   int32_t loops;
   double begin, end; /**< seconds of the clip */
-  double reach;      /**< the radius that holds all discs at every time, metres */
+  double bounding_radius; /**< the radius that encloses all discs at every time, metres */
   uint64_t bytes;
   uint64_t chunks;
   uint64_t keys; /**< of all chunks */
