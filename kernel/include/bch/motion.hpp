@@ -26,8 +26,8 @@ struct PathKey {
 struct Motion {
   const AnimatedShape* shape;
   std::span<const PathKey> path;  ///< at least one key, ascending
-  /// The time at which the clip begins. A clip that does not loop stands still before its beginning and after
-  /// its end.
+  /// The time at which the clip begins.
+  /// A clip that does not loop stands still before its beginning and after its end.
   double clip_begin = 0;
 };
 

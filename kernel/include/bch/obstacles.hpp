@@ -115,9 +115,8 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
 
-/// Tests whether some sphere of each agent comes within a distance of an obstacle: writes 1 if so and 0
-/// otherwise.
-/// There is one distance for all agents, or one each, in metres.
+/// Tests whether some sphere of each agent comes within a distance of an obstacle.
+/// Writes 1 if so and 0 otherwise. There is one distance for all agents, or one each, in metres.
 void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* implementation = nullptr);

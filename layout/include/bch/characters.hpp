@@ -93,8 +93,8 @@ struct Character {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
   Affine3 to_ground;  ///< maps the file's frame to the world: metres, z up
-  /// The joint whose (x, y) is a shape's origin; -1: a mesh without a skeleton, whose origin is the centre of
-  /// its bounding rectangle.
+  /// The joint whose (x, y) is a shape's origin, or -1.
+  /// -1: a mesh without a skeleton, whose origin is the centre of its bounding rectangle.
   std::int32_t root_joint = -1;
 };
 

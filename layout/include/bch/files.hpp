@@ -56,8 +56,8 @@ class BakedFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds the content of a baked file: a set, the origins of its shapes, moving discs, and models of bodies of
-/// spheres.
+/// Holds the content of a baked file.
+/// It is a set, the origins of its shapes, moving discs, and models of bodies of spheres.
 struct BakedShapes {
   ShapeSet set;
   ShapeOrigins origins;
@@ -79,9 +79,9 @@ enum class FileAccess {
 /// Errors:  throws BakedFileError, std::bad_alloc.
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = FileAccess::read);
 
-/// Loads a set from bytes in memory, which must be aligned to 64 bytes and stay unchanged while `memory`
-/// lives.
-/// Error messages use `name` as the name of the file.
+/// Loads a set from bytes in memory.
+/// They must be aligned to 64 bytes and stay unchanged while `memory` lives. Error messages use `name` as the
+/// name of the file.
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 

@@ -84,7 +84,7 @@ struct OutlineOptions {
 ///          heights of `between` are NaN or do not ascend.
 Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                 const OutlineOptions& options = {});
-/// Finds the outline of a character in a pose, relative to the root joint's (x, y); see ShapeBuilder::shape().
+/// Finds the outline of a character in a pose, relative to its root joint; see ShapeBuilder::shape().
 Outline outline(const Character& character, PoseTime at = {}, const OutlineOptions& options = {});
 
 /// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena.

@@ -112,8 +112,8 @@ class DistributedCrowd {
   /// Errors:  names the agent, by its id, and the value that an agent must not have.
   void update(double margin = 0);
 
-  /// Returns the pairs of ids that collide, first < second, as of the last update(). This rank owns the first
-  /// agent of each.
+  /// Returns the pairs of ids that collide, first < second, as of the last update().
+  /// This rank owns the first agent of each.
   /// Memory:  the answer is valid until the next call of a query.
   std::span<const Pair> collide_all(const CollideOptions& options = {});
   /// Returns the pairs of ids that are at most max_distance apart, likewise, with their clearance.
