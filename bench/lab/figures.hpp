@@ -20,6 +20,8 @@ namespace bch::lab {
 std::string draw_stages();
 /// Draws the distances and the depths of a pair, as lengths.
 std::string draw_distances();
+/// Draws how a walking man extends in time, the bounds of it, and the intervals of time of a search.
+std::string draw_motion();
 
 /// Represents where a person stands. Headings are steps of 1/32 turn: the directions of supports.
 struct Stand {

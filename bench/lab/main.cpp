@@ -118,7 +118,8 @@ void add_figures_options(CLI::App& command, std::string& folder) {
 /// Returns: a line a figure.
 std::string draw_figures(const std::string& folder) {
   const std::pair<const char*, std::string (*)()> figures[] = {{"stages.svg", lab::draw_stages},
-                                                               {"distances.svg", lab::draw_distances}};
+                                                               {"distances.svg", lab::draw_distances},
+                                                               {"motion.svg", lab::draw_motion}};
   std::string files;
   for (const auto& [name, draw] : figures) {
     const std::string file = (std::filesystem::path(folder) / name).string();

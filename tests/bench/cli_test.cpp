@@ -36,7 +36,7 @@ TEST(Cli, FiguresAreWhatTheLaboratoryDraws) {
   const Ending run = run_program(program, {"figures", "--out", folder.path().string()});
   ASSERT_EQ(run.code, 0) << run.err;
   const std::filesystem::path bench = std::filesystem::path(__FILE__).parent_path() / "../../bench";
-  for (const std::string name : {"stages.svg", "distances.svg"}) {
+  for (const std::string name : {"stages.svg", "distances.svg", "motion.svg"}) {
     EXPECT_TRUE(has(run.out, name));
     const std::string svg = read_text(folder.file(name));
     EXPECT_TRUE(svg == read_text(bench / name)) << "bch_lab figures --out bench draws another " << name;
