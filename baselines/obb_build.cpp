@@ -146,8 +146,8 @@ double checked_extent(std::span<const Facet> facets) {
       max_extent = std::max(max_extent, p.cast<double>().norm());
     }
   if (max_extent < detail::rounding::smallest_extent || max_extent > detail::rounding::largest_extent)
-    throw std::invalid_argument("box tree: extent " + detail::shortest(max_extent) +
-                                " m is outside 1e-6 to 1e6 m");
+    throw std::invalid_argument("box tree: expected an extent of 1e-6 to 1e6 m, found " +
+                                detail::shortest(max_extent));
   return max_extent;
 }
 

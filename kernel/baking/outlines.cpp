@@ -64,8 +64,8 @@ std::vector<Outline> outlines(std::span<const Vec3> positions, std::size_t verti
                               std::span<const std::array<std::uint32_t, 3>> triangles,
                               const OutlineOptions& options) {
   if (vertices == 0 || positions.size() % vertices != 0)
-    throw std::invalid_argument("outlines: " + std::to_string(positions.size()) + " positions for poses of " +
-                                std::to_string(vertices) + " vertices");
+    throw std::invalid_argument("outlines: expected " + std::to_string(vertices) +
+                                " positions for each pose, found " + std::to_string(positions.size()));
   const std::vector<Vec3> bind = bind_pose(positions.first(vertices), options);
   const MeshOutliner checked(triangles, bind, options);  // so that what is wrong with the mesh names no pose
   return make_all(

@@ -35,8 +35,9 @@ void PoseBaker::add(ShapeSetBuilder& to, std::size_t count,
                     const std::function<PoseOfCharacter(std::size_t)>& pose_of, const BakeSteps& steps) {
   for (std::size_t i = 0; i < count; ++i)
     if (const std::uint32_t character = pose_of(i).character; character >= characters_.size())
-      throw std::invalid_argument("shape " + std::to_string(i) + ": no character " +
-                                  std::to_string(character) + " of " + std::to_string(characters_.size()));
+      throw std::invalid_argument("shape " + std::to_string(i) + ": expected one of " +
+                                  std::to_string(characters_.size()) + " characters, found " +
+                                  std::to_string(character));
   add_in_order(
       to, plan_, count, [&](BuiltShape& place, std::size_t i) { prepare(place, pose_of(i), i, steps); },
       [&](std::size_t i) {

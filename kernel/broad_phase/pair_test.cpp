@@ -34,8 +34,8 @@ void PairTest::set(const PairFilter& filter, std::size_t agents,
   for (std::size_t i = 0; i < filter.excluded.size(); ++i) {
     const std::uint32_t last = in_order(filter.excluded[i]).second;
     if (last >= agents)
-      throw std::invalid_argument("filter: excluded pair " + std::to_string(i) + " names agent " +
-                                  std::to_string(last) + " of " + std::to_string(agents));
+      throw std::invalid_argument("filter: excluded pair " + std::to_string(i) + ": expected one of " +
+                                  std::to_string(agents) + " agents, found " + std::to_string(last));
   }
   agents_ = agents;
   category_ = filter.category, mask_ = filter.mask, origin_of_image_ = origin_of_image;

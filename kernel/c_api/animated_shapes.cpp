@@ -74,7 +74,8 @@ BakedShapes& owned_by(const bch_shape_set* set) {
 const AnimatedShape& shape_at(const bch_animated_shape* shape, double seconds) {
   const AnimatedShape& of = object_of(shape, "shape").shape;
   if (!detail::is_finite(seconds))
-    throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  "seconds is " + detail::shortest(seconds) + "; expected a finite number");
   return of;
 }
 
@@ -100,7 +101,8 @@ bch_status bch_animated_shape_animate(const bch_body_model* model, uint32_t clip
         sized<bch_animate_options>(options, BCH_ANIMATE_OPTIONS_INIT, "options");
     AnimateOptions how{.error = given.error};
     if (given.loops < -1 || given.loops > 1)
-      throw Failure(BCH_INVALID_ARGUMENT, "options->loops is " + std::to_string(given.loops));
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "options->loops is " + std::to_string(given.loops) + "; expected -1, 0 or 1");
     if (given.loops >= 0) how.loops = given.loops == 1;
     hand_out(std::make_unique<bch_animated_shape>(animate(of, clip, how)), shape);
   });

@@ -22,12 +22,13 @@ void check_size(const void* given, std::size_t known, const char* argument) {
                             [](unsigned char b) { return b != 0; }))
     throw Failure(BCH_INVALID_ARGUMENT,
                   std::string(argument) + "->size is " + std::to_string(size) +
-                      (absurd ? "" : ", and fields that this version does not know are set"));
+                      (absurd ? "; expected the size of the struct"
+                              : "; expected 0 in members that this version does not know"));
 }
 
 void reject_cut(std::uint32_t size, const char* argument) {
-  throw Failure(BCH_INVALID_ARGUMENT,
-                std::string(argument) + "->size is " + std::to_string(size) + ", inside a member");
+  throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + "->size is " + std::to_string(size) +
+                                          "; expected the end of a member");
 }
 
 void check_index(std::size_t index, std::size_t count, const char* argument) {
@@ -47,7 +48,7 @@ Agents agents_of(const bch_agents* given) {
   const bch_agents agents = sized(&required(given, "agents"), bch_agents BCH_AGENTS_INIT, "agents");
   if (agents.numbers != BCH_DOUBLES && agents.numbers != BCH_FLOATS)
     throw Failure(BCH_INVALID_ARGUMENT, "agents->numbers is " + std::to_string(agents.numbers) +
-                                            ", expected 0 (doubles) or 1 (floats)");
+                                            "; expected 0 (doubles) or 1 (floats)");
   const auto of = [&]<class Value>(const Value* values, std::size_t stride, const char* name) {
     array_of(values, agents.count, name);  // of any number, but not NULL
     return Strided<Value>(values, agents.count, stride == 0 ? sizeof(Value) : stride);
@@ -80,7 +81,8 @@ ShapeSetPlan plan_of(const bch_plan* given) {
 float threshold_of(const bch_plan* given) {
   const float threshold = sized<bch_plan>(given, BCH_PLAN_INIT, "plan").threshold;
   if (!(threshold > 0 && threshold <= 1e6f))
-    throw Failure(BCH_INVALID_ARGUMENT, "plan->threshold is " + detail::shortest(threshold));
+    throw Failure(BCH_INVALID_ARGUMENT, "plan->threshold is " + detail::shortest(threshold) +
+                                            "; expected above 0 and at most 1e6 m");
   return threshold;
 }
 
@@ -104,8 +106,8 @@ constexpr std::uint32_t max_threads = 1024;
 void on_threads(std::uint32_t threads, const std::function<void()>& work) {
   if (threads == 0) return work();
   if (threads > max_threads)
-    throw Failure(BCH_INVALID_ARGUMENT,
-                  "threads is " + std::to_string(threads) + ", more than " + std::to_string(max_threads));
+    throw Failure(BCH_INVALID_ARGUMENT, "threads is " + std::to_string(threads) + "; expected at most " +
+                                            std::to_string(max_threads));
   const auto run = [&](std::size_t, std::size_t) { work(); };
   detail::run_on_threads(threads, detail::RangeWork(run));
 }

@@ -127,7 +127,8 @@ void check_index(std::size_t index, std::size_t count, const char* argument);
 template <class Enum>
 Enum one_of(int32_t value, Enum last, const char* argument) {
   if (value < 0 || value > static_cast<int32_t>(last))
-    throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is " + std::to_string(value));
+    throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is " + std::to_string(value) +
+                                            "; expected 0 to " + std::to_string(static_cast<int32_t>(last)));
   return static_cast<Enum>(value);
 }
 

@@ -25,7 +25,8 @@ std::unique_ptr<bch_character> default_character(int32_t which) {
     case BCH_BULKY_MALE:
       return character_of(default_bulky_male(), "default:bulky");
     default:
-      throw Failure(BCH_INVALID_ARGUMENT, "which is " + std::to_string(which));
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "which is " + std::to_string(which) + "; expected a built-in character");
   }
 }
 

@@ -112,13 +112,15 @@ CharacterLibrary baked_library_of(const bch_check_options& options) {
   if (set.own == nullptr)
     throw Failure(BCH_INVALID_ARGUMENT, "options->baked does not say which clips its shapes show");
   if (!(std::abs(options.facing) <= 2 * std::numbers::pi))
-    throw Failure(BCH_INVALID_ARGUMENT, "options->facing is " + std::to_string(options.facing));
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  "options->facing is " + std::to_string(options.facing) + "; expected within +-2 pi");
   std::vector<ClipSpeed> speeds;
   for (const bch_clip_speed& given :
        array_of(options.clip_speeds, options.clip_speed_count, "options->clip_speeds")) {
     required(given.clip, "options->clip_speeds");
     if (!(given.speed >= 0 && given.speed <= 20))
-      throw Failure(BCH_INVALID_ARGUMENT, "options->clip_speeds has " + std::to_string(given.speed));
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "options->clip_speeds has " + std::to_string(given.speed) + "; expected 0 to 20 m/s");
     speeds.push_back({given.clip, given.speed});
   }
   return baked_library(*set.own, "options->baked", speeds);
@@ -202,7 +204,8 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.plan.depths = {given.depth};
   options.leaves = one_of(given.leaves, Leaves::segments, "options->leaves");
   if (!(given.max_distance >= 0 && given.max_distance <= 10))
-    throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  "options->max_distance is " + std::to_string(given.max_distance) + "; expected 0 to 10 m");
   options.max_distance = given.max_distance;
   options.max_pairs = given.max_pairs;
   const CharacterLibrary library = library_of(given);

@@ -62,8 +62,8 @@ void add_influences(Character& to, const bch_character_arrays& from) {
   const auto begin = offsets_of(from.influence_offsets, from.vertex_count, "arrays->influence_offsets");
   for (std::size_t v = 0; v < begin.size(); ++v) {
     if (begin[v] > UINT32_MAX || (v > 0 && begin[v] < begin[v - 1]))
-      throw Failure(BCH_INVALID_ARGUMENT,
-                    "arrays->influence_offsets[" + std::to_string(v) + "] is " + std::to_string(begin[v]));
+      throw Failure(BCH_INVALID_ARGUMENT, "arrays->influence_offsets[" + std::to_string(v) + "] is " +
+                                              std::to_string(begin[v]) + "; expected ascending offsets");
     to.influence_begin.push_back(static_cast<std::uint32_t>(begin[v]));
   }
   for (const bch_influence& each : array_of(from.influences, begin.back(), "arrays->influences"))

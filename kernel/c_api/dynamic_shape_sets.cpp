@@ -81,7 +81,8 @@ void replace_poses(bch_dynamic_shape_set& set, const bch_character& of, std::spa
                    PoseAt pose_at, float threshold, const bch_work* given) {
   check_shapes(set.dynamic.set(), shapes);
   if (!(threshold > 0 && threshold <= 1e6f))
-    throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + detail::shortest(threshold));
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  "threshold is " + detail::shortest(threshold) + "; expected above 0 and at most 1e6 m");
   Work work(given, shapes.size());
   const auto make = [&](Workshop& by, std::size_t i) -> const BuiltShape& {
     return by.make(of.character, threshold, pose_at(i), i, shapes[i]);

@@ -76,15 +76,15 @@ constexpr std::string_view kind_of(const bch_animated_shape*) {
   return "bch_animated_shape";
 }
 
-/// Throws what is said of a handle that is no living object of its kind.
+/// Throws what is said of a handle that is not a live object of its kind.
 template <class Object>
 [[noreturn]] void reject_handle(Object* handle, const char* argument) {
   throw Failure(BCH_INVALID_ARGUMENT,
-                std::string(argument) + " is no living " + std::string(kind_of(handle)) + "; was it freed?");
+                std::string(argument) + " is not a live " + std::string(kind_of(handle)) + "; was it freed?");
 }
 
 /// Returns the object of a handle.
-/// Errors:  throws Failure naming the argument, on NULL and on what is no living object of this kind.
+/// Errors:  throws Failure naming the argument, on NULL and on what is not a live object of this kind.
 template <class Object>
 Object& object_of(Object* handle, const char* argument) {
   if (handle == nullptr) throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is NULL");

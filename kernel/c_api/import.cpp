@@ -28,7 +28,8 @@ ImportOptions import_options_of(const bch_import_options& given) {
 
 ImportLimits limits_of(const bch_import_options& given, bool& cancelled) {
   if (!(given.seconds > 0 && given.seconds <= 1e6))
-    throw Failure(BCH_INVALID_ARGUMENT, "options->seconds is " + std::to_string(given.seconds));
+    throw Failure(BCH_INVALID_ARGUMENT, "options->seconds is " + std::to_string(given.seconds) +
+                                            "; expected above 0 and at most 1e6");
   ImportLimits limits;
   limits.time = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(1000 * given.seconds)));
   limits.memory = given.memory;

@@ -94,7 +94,8 @@ bch_status bch_outlines_get_text(const bch_outlines* outlines, size_t pose, int3
     const auto to = array_of(text, capacity, "text");
     required(length, "length");
     if (format != BCH_WKT && format != BCH_GEOJSON)
-      throw Failure(BCH_INVALID_ARGUMENT, "format is " + std::to_string(format));
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "format is " + std::to_string(format) + "; expected BCH_WKT or BCH_GEOJSON");
     const std::string all = format == BCH_WKT ? to_wkt(of) : to_geojson(of);
     std::copy_n(all.begin(), std::min(all.size(), to.size()), to.begin());
     *length = all.size();

@@ -297,7 +297,8 @@ bch_status bch_shape_set_builder_add_animated_shape(bch_shape_set_builder* handl
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const bch_animated_shape& of = object_of(shape, "shape");
     if (!detail::is_finite(seconds))
-      throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "seconds is " + detail::shortest(seconds) + "; expected a finite number");
     add_without_pose(builder, "moment", of.shape.shape(seconds));
   });
 }

@@ -29,9 +29,10 @@ void require_valid_answers(const QueryName& context, const Answers& answers, con
   check_size_or_none(context, answers.direction.size(), "directions");
   check_size_or_none(context, answers.points.size(), "points");
   if (!(options.max_distance >= 0))
-    throw std::invalid_argument(std::string(context.query) + ": a max_distance of " +
-                                shortest(options.max_distance) + " m");
-  require_choice(context.query, "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+    throw std::invalid_argument(std::string(context.query) +
+                                ": expected a max_distance of at least 0 m, found " +
+                                shortest(options.max_distance));
+  require_choice(context.query, "an overlap", static_cast<int>(options.overlap), "0 (zero) or 1 (deepest)");
 }
 
 template <class Answers>
@@ -61,7 +62,7 @@ void require_distances(const QueryName& context, std::span<const double> distanc
   for (std::size_t i = 0; i < distances.size(); ++i)
     if (!(distances[i] >= 0))
       throw std::invalid_argument((one_for_all ? std::string(context.query) + ": " : place(context, i)) +
-                                  "a distance of " + shortest(distances[i]) + " m");
+                                  "expected a distance of at least 0 m, found " + shortest(distances[i]));
 }
 
 void require_valid(const QueryName& context, const Displacements& displacements, std::size_t times) {
@@ -72,12 +73,12 @@ void require_valid(const QueryName& context, const Displacements& displacements,
   const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
   for (std::size_t i = 0; i < displacements.x.size(); ++i)
     if (!good(displacements.x[i]) || !good(displacements.y[i]))
-      throw std::invalid_argument(place(context, i) + "displacement (" + shortest(displacements.x[i]) + ", " +
-                                  shortest(displacements.y[i]) + ") m is not within +-1e9");
+      throw std::invalid_argument(place(context, i) + "expected a displacement within +-1e9 m, found (" +
+                                  shortest(displacements.x[i]) + ", " + shortest(displacements.y[i]) + ")");
   for (std::size_t i = 0; i < displacements.z.size(); ++i)
     if (!good(displacements.z[i]))
-      throw std::invalid_argument(place(context, i) + "displacement in z of " + shortest(displacements.z[i]) +
-                                  " m is not within +-1e9");
+      throw std::invalid_argument(place(context, i) + "expected a displacement in z within +-1e9 m, found " +
+                                  shortest(displacements.z[i]));
 }
 
 void require_on_ground(const QueryName& context, const Displacements& displacements) {

@@ -15,7 +15,7 @@ namespace {
 [[noreturn]] void reject(const DistributedCrowd::Agent& agent, const char* field, double value,
                          const char* limits) {
   std::ostringstream message;
-  message << "agent " << agent.id << ": " << field << " is " << value << ", not " << limits;
+  message << "agent " << agent.id << ": expected a " << field << " " << limits << ", found " << value;
   throw std::invalid_argument(message.str());
 }
 
@@ -27,16 +27,16 @@ void require_valid(const DistributedCrowd::Agent& agent, bool heights) {
 }
 
 void require_valid(const DistributedCrowd::Agent& agent, const ShapeSet& shapes) {
-  if (agent.shape >= shapes.shape_count()) reject(agent, "shape", agent.shape, "one of the set");
-  if (agent.level >= shapes.level_count()) reject(agent, "level", agent.level, "one of the set");
+  if (agent.shape >= shapes.shape_count()) reject(agent, "shape", agent.shape, "of the set");
+  if (agent.level >= shapes.level_count()) reject(agent, "level", agent.level, "of the set");
 }
 
 void require_valid(const DistributedCrowd::Agent& agent, const PosedShapes& shapes) {
-  if (agent.shape >= shapes.characters().size()) reject(agent, "shape", agent.shape, "one of the characters");
-  if (agent.level >= shapes.plan().depths.size()) reject(agent, "level", agent.level, "one of the plan");
+  if (agent.shape >= shapes.characters().size()) reject(agent, "shape", agent.shape, "of the characters");
+  if (agent.level >= shapes.plan().depths.size()) reject(agent, "level", agent.level, "of the plan");
   if (agent.pose.clip == PoseTime::rest) return;
   const std::vector<Clip>& clips = shapes.characters()[agent.shape].clips;
-  if (agent.pose.clip >= clips.size()) reject(agent, "clip", agent.pose.clip, "one of the character's");
+  if (agent.pose.clip >= clips.size()) reject(agent, "clip", agent.pose.clip, "of the character");
   if (!(agent.pose.seconds >= 0 && agent.pose.seconds <= clips[agent.pose.clip].seconds))
     reject(agent, "time", static_cast<double>(agent.pose.seconds), "within the clip");
 }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "kernel/distributed/agent_validation.hpp"
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/shortest.hpp"
 
 namespace bch::detail {
 namespace {
@@ -89,21 +89,23 @@ std::uint64_t CrowdState::agent_weight() const {
 
 void CrowdState::prepare(bool has_heights) {
   if (!(options.cell >= 0 && options.cell <= 1e6))
-    throw std::invalid_argument("the cell is not from 0 to 1e6 m");
-  if (!(options.imbalance >= 1)) throw std::invalid_argument("an imbalance below 1 cannot be");
+    throw std::invalid_argument("crowd: expected a cell of 0 to 1e6 m, found " + shortest(options.cell));
+  if (!(options.imbalance >= 1))
+    throw std::invalid_argument("crowd: expected an imbalance of at least 1, found " +
+                                shortest(options.imbalance));
   if (!(options.agent_pairs >= 0 && options.agent_pairs <= 1000))
-    throw std::invalid_argument("an agent does not count as so many pairs");
+    throw std::invalid_argument("crowd: expected an agent to count as 0 to 1000 pairs, found " +
+                                shortest(options.agent_pairs));
   if (options.heights && !has_heights)
-    throw std::invalid_argument("agents have heights, and the set does not know those of bodies");
+    throw std::invalid_argument("crowd: expected a set that knows heights of bodies, as agents have heights");
   side = std::max(1.0, options.cell > 0 ? options.cell : 4 * largest(radii));
 }
 
 void CrowdState::require_margin(double wanted) const {
   if (wanted >= 0 && largest(radii) * 2 + wanted <= max_squares * side) return;
-  std::ostringstream message;
-  message << "a margin of " << wanted << " m: not positive, or with the largest radii more than "
-          << max_squares << " squares of " << side << " m";
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(
+      "update: expected a margin of at least 0 m and, with the largest radii, at most " +
+      shortest(max_squares) + " squares of " + shortest(side) + " m, found " + shortest(wanted));
 }
 
 void CrowdState::visit_agents() const {

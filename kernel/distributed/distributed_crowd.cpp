@@ -61,7 +61,8 @@ std::span<const DistributedCrowd::Distance> DistributedCrowd::clearances(const C
   State& state = *state_;
   agree(state.comm.get(), [&] {
     if (!(options.max_distance <= state.margin))
-      throw std::invalid_argument("clearances beyond the margin of the last update()");
+      throw std::invalid_argument(
+          "clearances: expected a max_distance within the margin of the last update()");
     without_tasks_from_outside([&] {
       state.find_pairs(options.max_distance);
       const Stopwatch watch(state.counters.answer_seconds);

@@ -53,13 +53,14 @@ const Implementation& implementation(std::string_view name) {
   for (const Implementation& each : table) {
     if (name != each.name) continue;
     if (!each.supported())
-      throw std::invalid_argument("this processor does not run the implementation '" + std::string(name) +
-                                  "'");
+      throw std::invalid_argument("expected an implementation that this processor runs, found '" +
+                                  std::string(name) + "'");
     return each;
   }
   std::string known;
   for (const Implementation& each : table) known += known.empty() ? each.name : std::string(", ") + each.name;
-  throw std::invalid_argument("no implementation '" + std::string(name) + "' (known: " + known + ")");
+  throw std::invalid_argument("expected an implementation of " + known + ", found '" + std::string(name) +
+                              "'");
 }
 
 }  // namespace bch

@@ -25,8 +25,8 @@ void require_valid(const char* query, std::span<const Pair> pairs, std::size_t m
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [first, second] = pairs[i];
     if (const std::uint32_t last = std::max(first, second); last >= motions)
-      reject(query, "pair " + std::to_string(i) + ": motion " + std::to_string(last) + " of " +
-                        std::to_string(motions));
+      reject(query, "pair " + std::to_string(i) + ": expected one of " + std::to_string(motions) +
+                        " motions, found " + std::to_string(last));
   }
 }
 

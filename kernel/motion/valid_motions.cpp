@@ -24,22 +24,23 @@ void require_valid(const char* query, const Motion& motion, std::size_t index) {
   const auto reject = [&](const std::string& why) {
     detail::reject(query, "motion " + std::to_string(index) + ": " + why);
   };
-  if (motion.shape == nullptr) reject("no shape");
+  if (motion.shape == nullptr) reject("expected a shape, found none");
   if (!is_time(motion.clip_begin))
-    reject("its clip begins at " + shortest(motion.clip_begin) + " s, not within +-1e6");
-  if (motion.path.empty()) reject("a path without keys");
+    reject("expected a clip that begins within +-1e6 s, found " + shortest(motion.clip_begin));
+  if (motion.path.empty()) reject("expected a path of keys, found none");
   for (std::size_t k = 0; k < motion.path.size(); ++k) {
     const auto& [time, x, y, heading, z] = motion.path[k];
     const auto reject_key = [&](const std::string& why) {
-      reject("key " + std::to_string(k) + " of its path" + why);
+      reject("key " + std::to_string(k) + " of its path: " + why);
     };
-    if (!is_time(time)) reject_key(" at " + shortest(time) + " s, not within +-1e6");
-    if (const std::string why = misplacement(x, y, {heading}, z); !why.empty()) reject_key(": " + why);
+    if (!is_time(time)) reject_key("expected a time within +-1e6 s, found " + shortest(time));
+    if (const std::string why = misplacement(x, y, {heading}, z); !why.empty()) reject_key(why);
     if (k == 0) continue;
     if (!(motion.path[k - 1].time < time))
-      reject_key(" at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");
+      reject_key("expected a time after " + shortest(motion.path[k - 1].time) + " s, found " +
+                 shortest(time));
     if (!(std::abs(heading - motion.path[k - 1].heading) <= largest_turn))
-      reject_key(" turns by more than 1000 rad, to " + shortest(heading));
+      reject_key("expected a turn of at most 1000 rad, found one to " + shortest(heading));
   }
 }
 
@@ -51,10 +52,10 @@ void reject(const char* query, const std::string& why) {
 
 void require_valid(const char* query, const TimeInterval& interval, double tolerance) {
   if (!is_time(interval.from) || !is_time(interval.to) || interval.from > interval.to)
-    reject(query, "from " + shortest(interval.from) + " s to " + shortest(interval.to) +
-                      " s is no interval within +-1e6 s");
+    reject(query, "expected an interval within +-1e6 s, found " + shortest(interval.from) + " to " +
+                      shortest(interval.to));
   if (!(tolerance >= least_tolerance && is_finite(tolerance)))
-    reject(query, "a tolerance of " + shortest(tolerance) + " m, not 1e-6 or more");
+    reject(query, "expected a tolerance of at least 1e-6 m, found " + shortest(tolerance));
 }
 
 std::vector<MotionFacts> valid_motions(const char* query, std::span<const Motion> motions,

@@ -28,10 +28,11 @@ namespace {
 void require_offsets(std::span<const std::uint64_t> offsets, std::size_t values, const char* name,
                      const char* what) {
   if (offsets.empty() || offsets.front() != 0 || offsets.back() != values)
-    reject(std::string(name) + " do not lead from 0 to " + std::to_string(values) + " " + what);
+    reject("expected " + std::string(name) + " from 0 to the " + std::to_string(values) + " " + what +
+           ", found others");
   for (std::size_t i = 1; i < offsets.size(); ++i)
     if (offsets[i] < offsets[i - 1])
-      reject(std::string(name) + ": " + std::to_string(offsets[i]) + " after " +
+      reject("expected ascending " + std::string(name) + ", found " + std::to_string(offsets[i]) + " after " +
              std::to_string(offsets[i - 1]));
 }
 
@@ -44,8 +45,8 @@ WorldHeights heights_of(const ObstacleArrays& in, std::size_t obstacle) {
 void require_heights(const ObstacleArrays& in, std::size_t obstacles) {
   const auto check_size = [&](std::span<const double> heights, const char* name) {
     if (!heights.empty() && heights.size() != obstacles)
-      reject(std::to_string(obstacles) + " obstacles but " + std::to_string(heights.size()) + " values of " +
-             name);
+      reject("expected " + std::to_string(obstacles) + " values of " + name + ", one per obstacle, found " +
+             std::to_string(heights.size()));
   };
   check_size(in.bottom, "bottom");
   check_size(in.top, "top");
@@ -53,30 +54,32 @@ void require_heights(const ObstacleArrays& in, std::size_t obstacles) {
   for (std::size_t i = 0; i < obstacles; ++i) {
     const auto [bottom, top] = heights_of(in, i);
     if (!(bottom <= top))
-      reject("obstacle " + std::to_string(i) + ": heights from " + shortest(bottom) + " to " + shortest(top) +
-             " m");
+      reject("obstacle " + std::to_string(i) + ": expected a bottom below the top, found " +
+             shortest(bottom) + " to " + shortest(top) + " m");
   }
 }
 
 void require_valid(const ObstacleArrays& in) {
   if (in.x.size() != in.y.size())
-    reject(std::to_string(in.x.size()) + " values of x but " + std::to_string(in.y.size()) + " of y");
+    reject("expected " + std::to_string(in.x.size()) + " values of y, as many as of x, found " +
+           std::to_string(in.y.size()));
   require_offsets(in.polyline_offsets, in.x.size(), "polyline offsets", "points");
   const std::size_t polylines = in.polyline_offsets.size() - 1;
   if (!in.obstacle_offsets.empty())
     require_offsets(in.obstacle_offsets, polylines, "obstacle offsets", "polylines");
   const std::size_t obstacles = in.obstacle_offsets.empty() ? polylines : in.obstacle_offsets.size() - 1;
   if (!in.is_area.empty() && in.is_area.size() != obstacles)
-    reject(std::to_string(obstacles) + " obstacles but " + std::to_string(in.is_area.size()) +
-           " values of is_area");
+    reject("expected " + std::to_string(obstacles) + " values of is_area, one per obstacle, found " +
+           std::to_string(in.is_area.size()));
   require_heights(in, obstacles);
   const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
   for (std::size_t i = 0; i < in.x.size(); ++i)
     if (!good(in.x[i]) || !good(in.y[i]))
-      reject("point " + std::to_string(i) + ": (" + shortest(in.x[i]) + ", " + shortest(in.y[i]) +
-             ") m is not within +-1e9");
+      reject("point " + std::to_string(i) + ": expected a position within +-1e9 m, found (" +
+             shortest(in.x[i]) + ", " + shortest(in.y[i]) + ")");
   if (in.x.size() + polylines + obstacles >= std::numeric_limits<std::int32_t>::max())
-    throw std::length_error("obstacles: more than 2^31 points, polylines and obstacles");
+    throw std::length_error(
+        "obstacles: expected fewer than 2^31 points, polylines and obstacles, found more");
 }
 
 WorldSegment segment_of(double ax, double ay, double bx, double by, std::uint32_t number,

@@ -254,8 +254,8 @@ class WktReader {
 
 ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons, double bottom, double top) {
   if (polygons != Polygons::solid && polygons != Polygons::walkable)
-    throw std::invalid_argument("obstacles: no polygons are " + std::to_string(static_cast<int>(polygons)) +
-                                ", only solid (0) and walkable (1)");
+    throw std::invalid_argument("obstacles: expected polygons of 0 (solid) or 1 (walkable), found " +
+                                std::to_string(static_cast<int>(polygons)));
   const ReadObstacles read = WktReader(text, polygons == Polygons::walkable).read();
   ObstacleArrays arrays{read.x, read.y, read.polyline_offsets, read.obstacle_offsets, read.is_area};
   constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -166,7 +166,8 @@ void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
     const auto [x, y] = directions[i];
     if (is_finite(x) && is_finite(y) && (x != 0 || y != 0)) continue;
     std::ostringstream message;
-    message << "penetration: pair " << i << ": direction (" << x << ", " << y << ") is none";
+    message << "penetration: pair " << i << ": expected a finite direction other than (0, 0), found (" << x
+            << ", " << y << ")";
     throw std::invalid_argument(message.str());
   }
 }

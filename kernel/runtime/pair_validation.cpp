@@ -65,8 +65,8 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
   const std::string place = "pair " + std::to_string(i) + ": ";
   for (const std::uint32_t agent : {pairs[i].first, pairs[i].second}) {
     if (agent >= agents.size())
-      throw std::invalid_argument(place + "agent " + std::to_string(agent) + " of " +
-                                  std::to_string(agents.size()));
+      throw std::invalid_argument(place + "expected one of " + std::to_string(agents.size()) +
+                                  " agents, found " + std::to_string(agent));
     if (is_valid(arguments, agent)) continue;
     try {
       reject(*arguments.shapes, agents, agent);
@@ -82,24 +82,26 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
 const Implementation& chosen(const Implementation* wanted, const char* query) {
   if (wanted == nullptr) return best_implementation();
   if (!wanted->supported())
-    throw std::invalid_argument(std::string(query) + ": this processor does not run '" + wanted->name + "'");
+    throw std::invalid_argument(std::string(query) +
+                                ": expected an implementation that this processor runs, found '" +
+                                wanted->name + "'");
   return *wanted;
 }
 
 void check_size(const QueryName& context, std::size_t size, const char* what) {
   if (size != context.count)
-    throw std::invalid_argument(std::string(context.query) + ": " + std::to_string(context.count) + " " +
-                                context.one + "s but " + std::to_string(size) + " " + what);
+    throw std::invalid_argument(std::string(context.query) + ": expected " + std::to_string(context.count) +
+                                " " + what + ", one per " + context.one + ", found " + std::to_string(size));
 }
 
 void require_choice(const char* query, const char* what, int value, const char* words) {
   if (value != 0 && value != 1)
-    throw std::invalid_argument(std::string(query) + ": no " + what + " " + std::to_string(value) +
-                                ", only " + words);
+    throw std::invalid_argument(std::string(query) + ": expected " + what + " of " + words + ", found " +
+                                std::to_string(value));
 }
 
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query) {
-  require_choice(query, "leaves are", static_cast<int>(leaves), "discs (0) and segments (1)");
+  require_choice(query, "leaves", static_cast<int>(leaves), "0 (discs) or 1 (segments)");
   return leaves == Leaves::segments && shapes.exact_leaves();
 }
 

@@ -32,8 +32,8 @@ void require_sizes(const Agents& agents) {
   const std::size_t size = agents.size();
   const auto require = [size](std::size_t other, const char* name, bool optional) {
     if (other == size || (optional && other == 0)) return;
-    throw std::invalid_argument("agents: " + std::to_string(size) + " shapes but " + std::to_string(other) +
-                                " values of " + name);
+    throw std::invalid_argument("agents: expected " + std::to_string(size) + " values of " + name +
+                                ", one per shape, found " + std::to_string(other));
   };
   require(agents.x.size(), "x", false);
   require(agents.y.size(), "y", false);
@@ -49,32 +49,34 @@ void require_sizes(const Agents& agents) {
                                       {agents.z, "z"}})
     require_alignment(numbers, numbers.is_float() ? alignof(float) : alignof(double), name);
   if (size > std::numeric_limits<std::uint32_t>::max())
-    throw std::invalid_argument("agents: more than 2^32 - 1");
+    throw std::invalid_argument("agents: expected fewer than 2^32, found more");
 }
 
 void require_heights(const ShapeSetView& shapes, const Agents& agents) {
   if (!agents.z.empty() && shapes.heights == nullptr && shapes.shape_count > 0)
-    throw std::invalid_argument("agents: they have a z, and the set was planned without heights");
+    throw std::invalid_argument("agents: expected no z for a set without heights, found some");
 }
 
 std::string misplacement(double x, double y, const Headings::Value& heading, double z) {
   const auto is_near = [](double metres) { return std::abs(metres) <= rounding::largest_position; };
   if (heading.is_direction && !is_unit(heading.x, heading.y))
-    return "heading (" + shortest(heading.x) + ", " + shortest(heading.y) +
-           ") is no direction, expected a length from 0.999 to 1.001";
+    return "expected a direction of length 0.999 to 1.001, found (" + shortest(heading.x) + ", " +
+           shortest(heading.y) + ")";
   if (!(std::abs(heading.x) <= rounding::largest_heading))
-    return "heading " + shortest(heading.x) + " rad is not within +-1e9";
-  if (!is_near(z)) return "z " + shortest(z) + " m is not within +-1e9";
+    return "expected a heading within +-1e9 rad, found " + shortest(heading.x);
+  if (!is_near(z)) return "expected a z within +-1e9 m, found " + shortest(z);
   if (is_near(x) && is_near(y)) return {};
-  return "position (" + shortest(x) + ", " + shortest(y) + ") m is not within +-1e9";
+  return "expected a position within +-1e9 m, found (" + shortest(x) + ", " + shortest(y) + ")";
 }
 
 void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i) {
   const auto why = [&]() -> std::string {
     if (agents.shape[i] >= shapes.shape_count)
-      return "shape " + std::to_string(agents.shape[i]) + " of " + std::to_string(shapes.shape_count);
+      return "expected one of " + std::to_string(shapes.shape_count) + " shapes, found " +
+             std::to_string(agents.shape[i]);
     if (!agents.level.empty() && agents.level[i] >= shapes.level_count)
-      return "level " + std::to_string(agents.level[i]) + " of " + std::to_string(shapes.level_count);
+      return "expected one of " + std::to_string(shapes.level_count) + " levels, found " +
+             std::to_string(agents.level[i]);
     return misplacement(agents.x[i], agents.y[i], agents.heading[i], agents.z.empty() ? 0 : agents.z[i]);
   };
   throw std::invalid_argument("agent " + std::to_string(i) + ": " + why());

@@ -33,30 +33,33 @@ void check_header(const Preamble& preamble, std::uint64_t size, const std::strin
   if (header.byte_order == baked::other_byte_order)
     reject(name, "was baked on a machine of the other byte order; bake it on this one");
   if (header.byte_order != baked::byte_order)
-    reject(name, "header: no byte order is " + std::to_string(header.byte_order));
+    reject(name, "header: expected a byte order of this or the other kind, found " +
+                     std::to_string(header.byte_order));
   if (header.version != baked::version)
     reject(name, "header: version " + std::to_string(header.version) + ", and only " +
                      std::to_string(baked::version) + " is known; bake it anew");
   if (header.file_size != size)
-    reject(name, "header: the file should have " + std::to_string(header.file_size) + " bytes and has " +
+    reject(name, "header: expected a file of " + std::to_string(header.file_size) + " bytes, found " +
                      std::to_string(size));
   if (header.checksum != baked::checksum(preamble)) reject(name, "header: wrong checksum");
   if (header.section_count != baked::section_count)
-    reject(name, "header: " + std::to_string(header.section_count) + " sections, not " +
-                     std::to_string(baked::section_count));
+    reject(name, "header: expected " + std::to_string(baked::section_count) + " sections, found " +
+                     std::to_string(header.section_count));
   for (const std::uint32_t zero : header.zero)
-    if (zero != 0) reject(name, "header: " + std::to_string(zero) + " where there has to be 0");
+    if (zero != 0) reject(name, "header: expected 0, found " + std::to_string(zero));
 }
 
 /// Returns: where the next section begins.
 std::uint64_t check_entry(const SectionEntry& entry, std::uint32_t number, std::size_t element_size,
                           std::uint64_t offset, std::uint64_t file_size, const std::string& where) {
-  if (entry.section != number) reject(where, "its number is " + std::to_string(entry.section));
+  if (entry.section != number)
+    reject(where, "expected number " + std::to_string(number) + ", found " + std::to_string(entry.section));
   if (entry.element_size != element_size)
-    reject(where, "elements of " + std::to_string(entry.element_size) + " bytes, not " +
-                      std::to_string(element_size));
+    reject(where, "expected elements of " + std::to_string(element_size) + " bytes, found " +
+                      std::to_string(entry.element_size));
   if (entry.offset != offset)
-    reject(where, "begins at " + std::to_string(entry.offset) + ", not at " + std::to_string(offset));
+    reject(where,
+           "expected a beginning at " + std::to_string(offset) + ", found " + std::to_string(entry.offset));
   const std::uint64_t left = file_size - offset;
   if (entry.count > left / element_size)
     reject(where, std::to_string(entry.count) + " elements do not fit into the file");

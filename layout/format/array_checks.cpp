@@ -25,14 +25,15 @@ void require_runs(const char* array, std::span<const Run> runs, std::uint64_t en
   std::uint64_t next = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].begin != next)
-      reject(array, i, "begins at " + std::to_string(runs[i].begin) + ", not " + std::to_string(next));
+      reject(array, i,
+             "expected a beginning at " + std::to_string(next) + ", found " + std::to_string(runs[i].begin));
     if (runs[i].end < next + std::uint64_t{!may_be_empty})
       reject(array, i, "ends at " + std::to_string(runs[i].end) + " where it begins, or before");
     next = runs[i].end + gap;
   }
   if (next != end)
-    throw std::invalid_argument(std::string(array) + ": " + std::to_string(next) + " is not the end, " +
-                                std::to_string(end));
+    throw std::invalid_argument(std::string(array) + ": expected an end at " + std::to_string(end) +
+                                ", found " + std::to_string(next));
 }
 
 /// The radius of a disc about a contour's points is that of the farthest one, and the centre is among them.
@@ -58,8 +59,8 @@ void reject(const char* array, std::size_t place, const std::string& what) {
 
 void require_size(const char* array, std::uint64_t size, std::uint64_t expected) {
   if (size != expected)
-    throw std::invalid_argument(std::string(array) + ": " + std::to_string(size) +
-                                " where there have to be " + std::to_string(expected));
+    throw std::invalid_argument(std::string(array) + ": expected " + std::to_string(expected) + ", found " +
+                                std::to_string(size));
 }
 
 void alignment(const ShapeArrays& a) {
@@ -73,9 +74,12 @@ void alignment(const ShapeArrays& a) {
 
 void depths(const ShapeArrays& a) {
   if (a.depths.empty() || a.depths.size() > 255)
-    throw std::invalid_argument("depths: " + std::to_string(a.depths.size()) + ", not 1 to 255");
+    throw std::invalid_argument("depths: expected 1 to 255, found " + std::to_string(a.depths.size()));
   for (std::size_t i = 1; i < a.depths.size(); ++i)
-    if (a.depths[i] <= a.depths[i - 1]) reject("depths", i, std::to_string(a.depths[i]) + " does not ascend");
+    if (a.depths[i] <= a.depths[i - 1])
+      reject(
+          "depths", i,
+          "expected more than " + std::to_string(a.depths[i - 1]) + ", found " + std::to_string(a.depths[i]));
 }
 
 void sizes(const ShapeArrays& a) {
@@ -92,7 +96,7 @@ void sizes(const ShapeArrays& a) {
     require_size("shape_contours", a.shape_contours.size(), 0);
   }
   if (a.nodes.size() >= leaf_bit)
-    throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
+    throw std::invalid_argument("nodes: expected fewer than 2^31, found " + std::to_string(a.nodes.size()));
   require_size("inscribed", a.inscribed.size(), culling ? shapes : 0);
   require_size("profiles", a.profiles.size(), culling ? shapes : 0);
   // Kernels name a profile's records by 32 bits, two floats each.

@@ -179,12 +179,13 @@ void outer_radii(const ShapeArrays& a, LevelNodes& level) {
   const float most = 2 * *std::max_element(radii, radii + tree.count);
   const auto good = [&](float outer, float radius) { return outer >= 0 && outer <= radius + most; };
   if (!good(tree.outer_radius, a.roots[level.root].radius))
-    reject("trees", level.root, "the outer radius is none");
+    reject("trees", level.root, "expected a finite outer radius, found another");
   if (tree.top >= leaf_bit) return;
   for (std::uint64_t block = tree.top; block < level.discs; block += block_floats)
     for (std::uint32_t lane = 0; lane < block_width && floats[block + lane] < infinity; ++lane)
       if (!good(floats[block + block_outer + lane], floats[block + 2 * block_width + lane]))
-        reject("nodes", block, "the outer radius of disc " + std::to_string(lane) + " is none");
+        reject("nodes", block,
+               "expected a finite outer radius of disc " + std::to_string(lane) + ", found another");
 }
 
 }  // namespace bch::detail::shape_checks

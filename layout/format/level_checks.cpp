@@ -62,7 +62,8 @@ float smallest_radius(float max_extent) {
   return static_cast<float>(24 * rounding::unit_roundoff) * max_extent;
 }
 
-constexpr const char* not_a_disc = "holds a disc that is none, or smaller than the rounding of its shape";
+constexpr const char* not_a_disc =
+    "expected discs of finite numbers, no smaller than the rounding of the shape, found another";
 
 /// Returns a word whose top bit is set, like that of beyond(), for a value that is not between two positive
 /// numbers.
@@ -136,7 +137,9 @@ void disc_extent(const ShapeArrays& a, LevelNodes& level) {
   if (discs != level.discs || count < 1 || stride != std::max(count, block_width) ||
       level.end + block_floats > a.nodes.size())
     reject("trees", level.root, std::to_string(count) + " discs do not fit");
-  if (conservative_nodes > 1) reject("trees", level.root, "whether nodes hold discs is neither 0 nor 1");
+  if (conservative_nodes > 1)
+    reject("trees", level.root,
+           "expected conservative_nodes of 0 or 1, found " + std::to_string(conservative_nodes));
 }
 
 void leaf_blocks(const ShapeArrays& a, LevelNodes& level) {

@@ -102,12 +102,13 @@ double validate(const Outline& outline) {
     if (area < 0) require_not_clockwise(outline, c, area, size);
   }
   if (!is_finite(outline.grid_step) || outline.grid_step < 0)
-    throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step));
+    throw std::invalid_argument("outline: expected a grid step of at least 0 m, found " +
+                                shortest(outline.grid_step));
   if (size < rounding::smallest_extent || size > rounding::largest_extent)
-    throw std::invalid_argument("outline: extent " + shortest(size) + " m is outside 1e-6 to 1e6 m");
+    throw std::invalid_argument("outline: expected an extent of 1e-6 to 1e6 m, found " + shortest(size));
   if (static_cast<double>(outline.grid_step) > size)
-    throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step) +
-                                " m is above the extent, " + shortest(size) + " m");
+    throw std::invalid_argument("outline: expected a grid step of at most the extent, " + shortest(size) +
+                                " m, found " + shortest(outline.grid_step));
   return size;
 }
 

@@ -107,7 +107,8 @@ inline void require_discs(const char* array, std::size_t place, const float* x, 
   for (std::size_t i = 0; i < count; ++i) bad |= beyond(x[i], largest_length) & ~is_padding(x[i]);
   for (std::size_t i = 0; i < count; ++i) bad |= beyond(y[i], largest_length);
   for (std::size_t i = 0; i < count; ++i) bad |= negative_or_beyond(radius[i], largest_length);
-  if ((bad & top_bit) != 0) reject(array, place, "holds a disc that is none");
+  if ((bad & top_bit) != 0)
+    reject(array, place, "expected discs of finite numbers and radii of at least 0, found another");
 }
 
 }  // namespace bch::detail::shape_checks

@@ -66,13 +66,13 @@ void clear(Hierarchy& hierarchy) {
 
 void require_extent(double max_extent) {
   if (!(max_extent >= rounding::smallest_extent && max_extent <= rounding::largest_extent))
-    throw std::invalid_argument("hierarchy: extent " + shortest(max_extent) + " m is outside 1e-6 to 1e6 m");
+    throw std::invalid_argument("hierarchy: expected an extent of 1e-6 to 1e6 m, found " +
+                                shortest(max_extent));
 }
 
 void require_threshold(float threshold) {
   if (!(threshold > 0) || !is_finite(threshold))
-    throw std::invalid_argument("hierarchy: threshold " + shortest(threshold) +
-                                " m is not positive and finite");
+    throw std::invalid_argument("hierarchy: expected a threshold above 0 m, found " + shortest(threshold));
 }
 
 void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
@@ -81,7 +81,8 @@ void HierarchyBuilder::contour(const Outline& outline, float threshold, SplitRul
   const double max_extent = validate(outline);
   require_threshold(threshold);
   if (rule != SplitRule::centroid && rule != SplitRule::centre)
-    throw std::invalid_argument("hierarchy: no split rule is " + std::to_string(static_cast<int>(rule)));
+    throw std::invalid_argument("hierarchy: expected a split rule of 0 (centroid) or 1 (centre), found " +
+                                std::to_string(static_cast<int>(rule)));
   hierarchy.max_extent = max_extent;
   begin(max_extent, rounding::outline_grid_steps * widened(outline.grid_step), widened(threshold),
         outline.points.size());

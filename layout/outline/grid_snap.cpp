@@ -86,7 +86,7 @@ template <class Position>
   for (const std::uint32_t v : used)
     if (!is_finite(positions[v].x) || !is_finite(positions[v].y))
       throw std::invalid_argument("outline: vertex " + std::to_string(v) + " is not finite");
-  throw std::invalid_argument("outline: extent " + shortest(max_extent) + " m is outside 1e-6 to 1e6 m");
+  throw std::invalid_argument("outline: expected an extent of 1e-6 to 1e6 m, found " + shortest(max_extent));
 }
 
 /// Writes the points of a grid of so many steps a metre: at least 8 and a power of two, so that the products are exact;

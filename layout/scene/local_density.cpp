@@ -24,14 +24,15 @@ constexpr double largest_position = 1e9;  // metres
 
 void require(std::span<const double> x, std::span<const double> y, double radius) {
   if (x.size() != y.size())
-    throw std::invalid_argument("local density: " + std::to_string(x.size()) + " x and " +
-                                std::to_string(y.size()) + " y");
+    throw std::invalid_argument("local density: expected " + std::to_string(x.size()) +
+                                " values of y, as many as of x, found " + std::to_string(y.size()));
   if (!(radius > 0) || !is_finite(radius))
-    throw std::invalid_argument("local density: a radius of " + shortest(radius) + " m");
+    throw std::invalid_argument("local density: expected a radius above 0 m, found " + shortest(radius));
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!(std::abs(x[i]) <= largest_position) || !(std::abs(y[i]) <= largest_position))
-      throw std::invalid_argument("local density: agent " + std::to_string(i) + " at " + shortest(x[i]) +
-                                  ", " + shortest(y[i]) + " m");
+      throw std::invalid_argument("local density: agent " + std::to_string(i) +
+                                  ": expected a finite position, found (" + shortest(x[i]) + ", " +
+                                  shortest(y[i]) + ")");
 }
 
 /// Agents by the rows of a grid and, within a row, by x, so that neighbours are runs of three rows.

@@ -32,9 +32,11 @@ constexpr std::size_t max_levels = 255;
 
 void require(const SceneRequirements& requirements) {
   if (!(requirements.pose_step >= 0) || !is_finite(requirements.pose_step))
-    throw std::invalid_argument("scene plan: a pose step of " + shortest(requirements.pose_step) + " s");
+    throw std::invalid_argument("scene plan: expected a pose step of at least 0 s, found " +
+                                shortest(requirements.pose_step));
   if (!(requirements.pairs_per_shape >= 0))
-    throw std::invalid_argument("scene plan: " + shortest(requirements.pairs_per_shape) + " pairs a shape");
+    throw std::invalid_argument("scene plan: expected at least 0 pairs per shape, found " +
+                                shortest(requirements.pairs_per_shape));
 }
 
 /// Numbers the different shapes of a scene.
@@ -79,8 +81,8 @@ std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
   depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
   if (depths.empty()) depths.push_back(all_depths);
   if (depths.size() > max_levels)
-    throw std::invalid_argument("scene plan: " + std::to_string(depths.size()) +
-                                " different depths, more than 255");
+    throw std::invalid_argument("scene plan: expected at most 255 different depths, found " +
+                                std::to_string(depths.size()));
   return depths;
 }
 
@@ -95,10 +97,12 @@ ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneRequir
   require(requirements);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (!(agents[i].distance >= 0) || !is_finite(agents[i].distance))
-      reject(i, "a distance of " + shortest(agents[i].distance) + " m");
+      reject(i, "expected a distance of at least 0 m, found " + shortest(agents[i].distance));
     if (!(agents[i].density >= 0) || !is_finite(agents[i].density))
-      reject(i, "a density of " + shortest(agents[i].density) + " people per square metre");
-    if (!is_finite(agents[i].pose.at.seconds)) reject(i, "at " + shortest(agents[i].pose.at.seconds) + " s");
+      reject(i, "expected a density of at least 0 people per square metre, found " +
+                    shortest(agents[i].density));
+    if (!is_finite(agents[i].pose.at.seconds))
+      reject(i, "expected a finite time, found " + shortest(agents[i].pose.at.seconds));
   }
   const std::vector<std::uint32_t> depths = depths_of(agents, requirements);
   ScenePlan plan;

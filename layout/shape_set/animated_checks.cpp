@@ -45,24 +45,25 @@ class ChunkCheck {
 
   void check_times() const {
     const std::vector<double>& times = chunk_.times;
-    if (times.size() < 2) reject("fewer than two keys");
+    if (times.size() < 2) reject("expected at least two keys, found " + std::to_string(times.size()));
     for (std::size_t k = 0; k < times.size(); ++k) {
       if (!(std::abs(times[k]) <= largest_time))
-        reject("a key at " + shortest(times[k]) + " s, which is not within +-1e6");
+        reject("expected a key within +-1e6 s, found " + shortest(times[k]));
       if (k > 0 && !(times[k - 1] < times[k]))
-        reject("a key at " + shortest(times[k]) + " s after one at " + shortest(times[k - 1]) + " s");
+        reject("expected a key after " + shortest(times[k - 1]) + " s, found " + shortest(times[k]));
     }
     if (index_ > 0 && all_[index_ - 1].times.back() != times.front())
-      reject("it begins at " + shortest(times.front()) + " s, where the one before ends at " +
-             shortest(all_[index_ - 1].times.back()) + " s");
+      reject("expected a beginning at " + shortest(all_[index_ - 1].times.back()) +
+             " s, where the one before ends, found " + shortest(times.front()));
   }
 
   void check_counts() const {
     if (chunk_.disc_count == 0 || chunk_.disc_count > max_discs)
-      reject(std::to_string(chunk_.disc_count) + " discs, not 1 to " + std::to_string(max_discs));
+      reject("expected 1 to " + std::to_string(max_discs) + " discs, found " +
+             std::to_string(chunk_.disc_count));
     if (chunk_.keys.size() != chunk_.times.size() * chunk_.disc_count)
-      reject(std::to_string(chunk_.keys.size()) + " discs at " + std::to_string(chunk_.times.size()) +
-             " keys, not " + std::to_string(chunk_.disc_count) + " at each");
+      reject("expected " + std::to_string(chunk_.disc_count) + " discs at each of " +
+             std::to_string(chunk_.times.size()) + " keys, found " + std::to_string(chunk_.keys.size()));
   }
 
   void check_key(std::size_t key) const {
@@ -73,17 +74,18 @@ class ChunkCheck {
     for (std::uint32_t i = 0; i < chunk_.disc_count; ++i)
       if (!is_finite(discs[i].x) || !is_finite(discs[i].y) || !is_finite(discs[i].radius) ||
           discs[i].radius < 0)
-        reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
-               shortest(discs[i].y) + ") m");
+        reject(name(i) + ": expected a radius of at least 0 m about a finite centre, found " +
+               shortest(discs[i].radius) + " about (" + shortest(discs[i].x) + ", " + shortest(discs[i].y) +
+               ")");
   }
 
   void check_heights() const {
     const std::size_t heights = all_.front().z.empty() ? 0 : chunk_.keys.size();
     if (chunk_.z.size() != heights)
-      reject(std::to_string(chunk_.z.size()) + " heights, not " + std::to_string(heights));
+      reject("expected " + std::to_string(heights) + " heights, found " + std::to_string(chunk_.z.size()));
     for (std::size_t i = 0; i < heights; ++i)
       if (!(std::abs(chunk_.z[i]) + chunk_.keys[i].radius <= static_cast<float>(rounding::largest_extent)))
-        reject("a height of " + shortest(chunk_.z[i]) + " m, which is not within +-1e6");
+        reject("expected a sphere within +-1e6 m of the ground, found one at " + shortest(chunk_.z[i]));
   }
 
   const std::vector<AnimatedChunk>& all_;
@@ -92,7 +94,7 @@ class ChunkCheck {
 };
 
 void require_chunks(const AnimatedDiscs& discs) {
-  if (discs.chunks.empty()) reject("no chunks");
+  if (discs.chunks.empty()) reject("expected at least one chunk, found none");
   for (std::size_t i = 0; i < discs.chunks.size(); ++i) ChunkCheck(discs, i).check();
 }
 
@@ -101,7 +103,7 @@ void require_length_of_loop(const AnimatedDiscs& discs) {
   const std::vector<AnimatedChunk>& chunks = discs.chunks;
   const double length = chunks.back().times.back() - chunks.front().times.front();
   if (discs.loops && length < shortest_loop)
-    reject("a loop of " + shortest(length) + " s, which is shorter than 0.001 s");
+    reject("expected a loop of at least 0.001 s, found " + shortest(length));
 }
 
 /// Rejects discs that reach too little or too far.

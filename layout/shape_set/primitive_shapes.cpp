@@ -84,7 +84,8 @@ Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float thr
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance, float threshold) {
   const detail::FloatingPointStateGuard floats;
   if (!(tolerance > 0))
-    throw std::invalid_argument("shape: a tolerance of " + detail::shortest(tolerance) + " m");
+    throw std::invalid_argument("shape: expected a tolerance above 0 m, found " +
+                                detail::shortest(tolerance));
   std::vector<std::vector<Vec2>> polygons;
   for (std::size_t i = 0; i < capsules.size(); ++i) {
     const auto reject = [&](const std::string& why) {
@@ -92,12 +93,13 @@ Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance, fl
     };
     const ExactCapsule capsule(capsules[i]);
     if (!capsule.is_valid())
-      reject(" of " + detail::shortest(capsules[i].radius) + " m is none, or beyond 1e6 m");
+      reject(": expected a radius above 0 m and an extent of at most 1e6 m, found a radius of " +
+             detail::shortest(capsules[i].radius));
     polygons.push_back(polygon_about(capsule, double{tolerance}));
     if (polygons.back().empty())
-      reject(": a tolerance of " + detail::shortest(tolerance) + " m is too small for its size");
+      reject(": expected a larger tolerance for its size, found " + detail::shortest(tolerance) + " m");
   }
-  if (capsules.empty()) throw std::invalid_argument("shape: no capsules");
+  if (capsules.empty()) throw std::invalid_argument("shape: expected at least one capsule, found none");
   return shape_from_polygons(polygons, threshold);
 }
 

@@ -61,11 +61,15 @@ void require(bool is_there, const char* what, std::uint32_t index, std::uint32_t
 }  // namespace
 
 void validate(const ShapeSetPlan& plan) {
-  if (plan.depths.empty()) throw std::invalid_argument("shape set: the plan names no depths");
-  if (plan.depths.size() > 255) throw std::invalid_argument("shape set: more than 255 levels");
+  if (plan.depths.empty()) throw std::invalid_argument("shape set: expected 1 to 255 depths, found none");
+  if (plan.depths.size() > 255)
+    throw std::invalid_argument("shape set: expected 1 to 255 depths, found " +
+                                std::to_string(plan.depths.size()));
   for (std::size_t i = 1; i < plan.depths.size(); ++i)
     if (plan.depths[i] <= plan.depths[i - 1])
-      throw std::invalid_argument("shape set: depth " + std::to_string(plan.depths[i]) + " does not ascend");
+      throw std::invalid_argument("shape set: expected ascending depths, found " +
+                                  std::to_string(plan.depths[i]) + " after " +
+                                  std::to_string(plan.depths[i - 1]));
 }
 
 struct ShapeSet::State {

@@ -228,9 +228,9 @@ TEST(ObbTree, RejectsWhatItCannotHold) {
   const Eigen::Vector3f zero = Eigen::Vector3f::Zero(), one = Eigen::Vector3f::Ones();
   EXPECT_EQ(message({}), "box tree: no facets");
   EXPECT_EQ(message({{zero, one, one}, {zero, NAN * one, one}}), "box tree: facet 1 is not finite");
-  EXPECT_EQ(message({{zero, zero, zero}}), "box tree: extent 0 m is outside 1e-6 to 1e6 m");
+  EXPECT_EQ(message({{zero, zero, zero}}), "box tree: expected an extent of 1e-6 to 1e6 m, found 0");
   EXPECT_EQ(message({{zero, 2e6f * one, one}}),
-            "box tree: extent 3464101.6151377545 m is outside 1e-6 to 1e6 m");
+            "box tree: expected an extent of 1e-6 to 1e6 m, found 3464101.6151377545");
 }
 
 // ---- Segments and triangles with integer corners, against a method that shares nothing with the one tested: two

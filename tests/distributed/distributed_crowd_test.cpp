@@ -331,11 +331,14 @@ TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
     if (rank() == ranks() - 1) crowd.agents().push_back(agent);
     return complaint<RankError>([&] { crowd.update(); });
   };
-  EXPECT_EQ(complaint_about({.x = nan, .id = 17}), last + "position (nan, 0) m is not within +-1e9");
-  EXPECT_EQ(complaint_about({.y = -2e9, .id = 17}), last + "position (0, -2e+09) m is not within +-1e9");
-  EXPECT_EQ(complaint_about({.heading = nan, .id = 17}), last + "heading nan rad is not within +-1e9");
-  EXPECT_EQ(complaint_about({.id = 17, .shape = 24}), last + "shape is 24, not one of the set");
-  EXPECT_EQ(complaint_about({.id = 17, .level = 3}), last + "level is 3, not one of the set");
+  EXPECT_EQ(complaint_about({.x = nan, .id = 17}),
+            last + "expected a position within +-1e9 m, found (nan, 0)");
+  EXPECT_EQ(complaint_about({.y = -2e9, .id = 17}),
+            last + "expected a position within +-1e9 m, found (0, -2e+09)");
+  EXPECT_EQ(complaint_about({.heading = nan, .id = 17}),
+            last + "expected a heading within +-1e9 rad, found nan");
+  EXPECT_EQ(complaint_about({.id = 17, .shape = 24}), last + "expected a shape of the set, found 24");
+  EXPECT_EQ(complaint_about({.id = 17, .level = 3}), last + "expected a level of the set, found 3");
   EXPECT_EQ(complaint_about({.z = nan, .id = 17}), "accepted");
 }
 
@@ -357,18 +360,19 @@ TEST_F(Distributed, WhatMakesNoSenseIsAnError) {
   const auto made_with = [&](const DistributedCrowdOptions& options) {
     return complaint<RankError>([&] { DistributedCrowd(MPI_COMM_WORLD, set, {}, options); });
   };
-  EXPECT_EQ(made_with({.cell = -1}), "rank 0: the cell is not from 0 to 1e6 m");
-  EXPECT_EQ(made_with({.imbalance = 0.5}), "rank 0: an imbalance below 1 cannot be");
-  EXPECT_EQ(made_with({.agent_pairs = -1}), "rank 0: an agent does not count as so many pairs");
+  EXPECT_EQ(made_with({.cell = -1}), "rank 0: crowd: expected a cell of 0 to 1e6 m, found -1");
+  EXPECT_EQ(made_with({.imbalance = 0.5}), "rank 0: crowd: expected an imbalance of at least 1, found 0.5");
+  EXPECT_EQ(made_with({.agent_pairs = -1}),
+            "rank 0: crowd: expected an agent to count as 0 to 1000 pairs, found -1");
   EXPECT_EQ(made_with({.heights = true}),
-            "rank 0: agents have heights, and the set does not know those of bodies");
+            "rank 0: crowd: expected a set that knows heights of bodies, as agents have heights");
   DistributedCrowd crowd(MPI_COMM_WORLD, set, {}, {.cell = 2});
   for (const double margin : {-1.0, 100.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_NE(complaint<RankError>([&] { crowd.update(margin); }).find("rank 0: a margin of "),
+    EXPECT_NE(complaint<RankError>([&] { crowd.update(margin); }).find("rank 0: update: expected a margin "),
               std::string::npos);
   crowd.update(0.5);
   EXPECT_EQ(complaint<RankError>([&] { crowd.clearances({.max_distance = 0.6}); }),
-            "rank 0: clearances beyond the margin of the last update()");
+            "rank 0: clearances: expected a max_distance within the margin of the last update()");
 }
 
 // ---- Crowds of characters that are posed anew in every step.
@@ -462,12 +466,15 @@ TEST_F(PosedCrowd, WhatIsWrongOnOneRankIsAnErrorOnAll) {
     if (rank() == ranks() - 1) crowd.agents().push_back(agent);
     return complaint<RankError>([&] { crowd.update(); });
   };
-  EXPECT_EQ(complaint_about({.id = 9, .shape = 2}), last + "agent 9: shape is 2, not one of the characters");
-  EXPECT_EQ(complaint_about({.id = 9, .level = 1}), last + "agent 9: level is 1, not one of the plan");
+  EXPECT_EQ(complaint_about({.id = 9, .shape = 2}),
+            last + "agent 9: expected a shape of the characters, found 2");
+  EXPECT_EQ(complaint_about({.id = 9, .level = 1}), last + "agent 9: expected a level of the plan, found 1");
   EXPECT_EQ(complaint_about({.id = 9, .pose = {74, 0}}),
-            last + "agent 9: clip is 74, not one of the character's");
-  EXPECT_EQ(complaint_about({.id = 9, .pose = {0, -1}}), last + "agent 9: time is -1, not within the clip");
-  EXPECT_EQ(complaint_about({.id = 9, .pose = {73, 5}}), last + "agent 9: time is 5, not within the clip");
+            last + "agent 9: expected a clip of the character, found 74");
+  EXPECT_EQ(complaint_about({.id = 9, .pose = {0, -1}}),
+            last + "agent 9: expected a time within the clip, found -1");
+  EXPECT_EQ(complaint_about({.id = 9, .pose = {73, 5}}),
+            last + "agent 9: expected a time within the clip, found 5");
   EXPECT_EQ(complaint_about({.id = 9, .pose = {PoseTime::rest, 5}}), "accepted");
 
   std::vector<Character> damaged = characters;

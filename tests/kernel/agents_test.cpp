@@ -161,12 +161,10 @@ TEST(Agents, AreRefusedWhereDirectionsAreNone) {
   const auto refused = [&](const Headings& heading) {
     return test::complaint([&] { validate(set, {shape, at, at, heading}); });
   };
-  EXPECT_EQ(refused({x, y}),
-            "agent 1: heading (0.9, 0.3) is no direction, expected a length from 0.999 to 1.001");
-  EXPECT_EQ(refused({x, one}), "agents: 2 shapes but 1 values of heading's y");
+  EXPECT_EQ(refused({x, y}), "agent 1: expected a direction of length 0.999 to 1.001, found (0.9, 0.3)");
+  EXPECT_EQ(refused({x, one}), "agents: expected 2 values of heading's y, one per shape, found 1");
   const std::vector<double> nan = {0, std::numeric_limits<double>::quiet_NaN()};
-  EXPECT_EQ(refused({x, nan}),
-            "agent 1: heading (0.9, nan) is no direction, expected a length from 0.999 to 1.001");
+  EXPECT_EQ(refused({x, nan}), "agent 1: expected a direction of length 0.999 to 1.001, found (0.9, nan)");
   std::vector<std::uint8_t> hit(1);
   const Pair pair{0, 1};
   const std::vector<double> long_x = {1, 0.9}, long_y = {0, 0.5};
@@ -175,11 +173,11 @@ TEST(Agents, AreRefusedWhereDirectionsAreNone) {
                 collide(set, {shape, at, at, {long_x, long_y}}, {&pair, 1}, hit,
                         {.implementation = &implementation});
               }),
-              "pair 0: agent 1: heading (0.9, 0.5) is no direction, expected a length from 0.999 to 1.001");
+              "pair 0: agent 1: expected a direction of length 0.999 to 1.001, found (0.9, 0.5)");
   EXPECT_EQ(test::complaint([&] {
               collide(set, {shape, at, at, {x, y}}, {&pair, 1}, hit);
             }),
-            "pair 0: agent 1: heading (0.9, 0.3) is no direction, expected a length from 0.999 to 1.001");
+            "pair 0: agent 1: expected a direction of length 0.999 to 1.001, found (0.9, 0.3)");
 }
 
 TEST(Agents, AreRefusedWhereTheirNumbersAreNotAligned) {

@@ -149,7 +149,7 @@ TEST(Bake, NamesTheCharacterAndThePose) {
   EXPECT_TRUE(error_of({0, {0, 1}}).starts_with(man.name + ": vanish at 1 s: outline: "));
   EXPECT_TRUE(error_of({0, {7, 0.5f}}).starts_with(man.name + ": clip 7 at 0.5 s: "))
       << error_of({0, {7, 0.5f}});
-  EXPECT_EQ(error_of({3, {}}), "shape 1: no character 3 of 1");
+  EXPECT_EQ(error_of({3, {}}), "shape 1: expected one of 1 characters, found 3");
   EXPECT_THROW(bake(man, {.poses = 1, .threshold = std::numeric_limits<float>::quiet_NaN()}),
                std::invalid_argument);
   EXPECT_THROW(bake(man, {.plan = {.depths = {}}}), std::invalid_argument);

@@ -177,7 +177,7 @@ TEST(BodyImpact, BadInputIsNamed) {
     return test::complaint([&] { time_of_impact(bodies, crowd.agents(), crowd.pairs, ways, times); });
   };
   EXPECT_EQ(refused({one, one, high}),
-            "time_of_impact: pair 0: displacement in z of 2e+09 m is not within +-1e9");
+            "time_of_impact: pair 0: expected a displacement in z within +-1e9 m, found 2e+09");
   EXPECT_TRUE(test::has(refused({one, one, nan}), "pair 0: displacement in z of "));
   EXPECT_TRUE(test::has(refused({one, one, two}), "displacements in z"));
   EXPECT_TRUE(test::has(refused({one, nan}), "pair 0"));

@@ -40,7 +40,7 @@ TEST_F(BadInput, AnAgentThatNoPairNamesMayBeAnything) {
     std::vector<std::uint8_t> hits(count);
     EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits)) << count;
     pairs.push_back({2, 1});
-    expect_rejected("pair " + std::to_string(count) + ": agent 2: shape 99 of 2");
+    expect_rejected("pair " + std::to_string(count) + ": agent 2: expected one of 2 shapes, found 99");
   }
 }
 
@@ -55,11 +55,12 @@ TEST_F(BadInput, AFewOfManyAgents) {
     for (const std::uint32_t agent : {40u, 41u, 43u}) {
       crowd.shape[agent] = 2;
       const std::string first = agent == 41 ? "pair 1" : "pair 0";
-      expect_rejected(first + ": agent " + std::to_string(agent) + ": shape 2 of 2", options);
+      expect_rejected(first + ": agent " + std::to_string(agent) + ": expected one of 2 shapes, found 2",
+                      options);
       crowd.shape[agent] = 0;
     }
     pairs.push_back({99, 100});
-    expect_rejected("pair 3: agent 100 of 100", options);
+    expect_rejected("pair 3: expected one of 100 agents, found 100", options);
     pairs.pop_back();
   }
 }
@@ -77,14 +78,15 @@ TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
       }
       for (const std::uint32_t place : {0u, size / 2, size - 1})
         for (const std::uint32_t agent : {2 * place, 2 * place + 1}) {
-          const std::string where = "pair " + std::to_string(place) + ": agent ";
-          const auto expect_each = [&](auto& value, std::initializer_list<double> bad) {
+          const std::string pair = "pair " + std::to_string(place) + ": ";
+          const auto expect_each = [&](auto& value, std::initializer_list<double> bad,
+                                       const char* words = "agent ") {
             const auto good = value;
             for (const double each : bad) {
               value = static_cast<std::decay_t<decltype(value)>>(each);
               SCOPED_TRACE(std::string(implementation.name) + ", " + std::to_string(size) + " pairs, " +
                            std::to_string(each));
-              expect_rejected(where, options);
+              expect_rejected(pair + words, options);
             }
             value = good;
           };
@@ -92,7 +94,8 @@ TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
           expect_each(crowd.level[agent], {1, 255});
           for (auto* const values : {&crowd.x, &crowd.y, &crowd.heading})
             expect_each((*values)[agent], {nan, infinity, -infinity, 1'000'000'000.5, -1e300});
-          expect_each(agent % 2 == 0 ? pairs[place].second : pairs[place].first, {2.0 * size, 4294967295.0});
+          expect_each(agent % 2 == 0 ? pairs[place].second : pairs[place].first, {2.0 * size, 4294967295.0},
+                      "expected one of ");
         }
       std::vector<std::uint8_t> hits(size);
       EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits, options));
@@ -155,44 +158,50 @@ class QueryInput : public TwoAgents {
 
 TEST_F(QueryInput, AgentsAreNamed) {
   pairs[1] = {0, 2};
-  expect_refused_by_all("pair 1: agent 2 of 2");
+  expect_refused_by_all("pair 1: expected one of 2 agents, found 2");
   pairs[0] = {0, 0}, pairs[1] = {1, 0};
   const auto expect_named = [&](auto& value, auto bad, const std::string& words) {
     const auto good = std::exchange(value, bad);
     expect_refused_by_all(words);
     value = good;
   };
-  expect_named(crowd.shape[1], 2u, "pair 1: agent 1: shape 2 of 2");
-  expect_named(crowd.level[1], std::uint8_t{1}, "pair 1: agent 1: level 1 of 1");
-  expect_named(crowd.x[1], 1'000'000'000.5, "pair 1: agent 1: position (1000000000.5, 0)");
-  expect_named(crowd.y[1], nan, "pair 1: agent 1: position (1, nan)");
-  expect_named(crowd.y[1], -2e9, "pair 1: agent 1: position (1, -2e+09)");
-  expect_named(crowd.heading[1], infinity, "pair 1: agent 1: heading inf");
+  expect_named(crowd.shape[1], 2u, "pair 1: agent 1: expected one of 2 shapes, found 2");
+  expect_named(crowd.level[1], std::uint8_t{1}, "pair 1: agent 1: expected one of 1 levels, found 1");
+  expect_named(crowd.x[1], 1'000'000'000.5,
+               "pair 1: agent 1: expected a position within +-1e9 m, found (1000000000.5, 0)");
+  expect_named(crowd.y[1], nan, "pair 1: agent 1: expected a position within +-1e9 m, found (1, nan)");
+  expect_named(crowd.y[1], -2e9, "pair 1: agent 1: expected a position within +-1e9 m, found (1, -2e+09)");
+  expect_named(crowd.heading[1], infinity, "pair 1: agent 1: expected a heading within +-1e9 rad, found inf");
   crowd.y.pop_back();
-  expect_refused_by_all("2 shapes but 1 values of y");
+  expect_refused_by_all("expected 2 values of y, one per shape, found 1");
 }
 
 TEST_F(QueryInput, ValuesAreNamed) {
   const Agents agents = crowd.agents();
   for (const double bad : {nan, -0.5}) {
-    expect_refused("max_distance of " + std::string(bad < 0 ? "-0.5" : "nan"),
+    expect_refused("expected a max_distance of at least 0 m, found " + std::string(bad < 0 ? "-0.5" : "nan"),
                    [&] { clearance(set, agents, pairs, {floats}, {.max_distance = bad}); });
     distances[1] = bad;
-    expect_refused("within: pair 1: a distance of " + std::string(bad < 0 ? "-0.5 m" : "nan m"),
-                   [&] { within(set, agents, pairs, distances, hits); });
-    expect_refused("within: a distance of " + std::string(bad < 0 ? "-0.5 m" : "nan m"), [&] {
-      within(set, agents, pairs, {&bad, 1}, hits);
-    });
+    expect_refused(
+        "within: pair 1: expected a distance of at least 0 m, found " + std::string(bad < 0 ? "-0.5" : "nan"),
+        [&] { within(set, agents, pairs, distances, hits); });
+    expect_refused(
+        "within: expected a distance of at least 0 m, found " + std::string(bad < 0 ? "-0.5" : "nan"), [&] {
+          within(set, agents, pairs, {&bad, 1}, hits);
+        });
   }
   for (const double bad : {nan, -2e9}) {
     way[1] = bad;
-    expect_refused("pair 1: displacement (" + std::string(bad < 0 ? "-2e+09" : "nan"), [&] {
-      time_of_impact(set, agents, pairs, {way, way}, floats);
-    });
+    expect_refused(
+        "pair 1: expected a displacement within +-1e9 m, found (" + std::string(bad < 0 ? "-2e+09" : "nan"),
+        [&] {
+          time_of_impact(set, agents, pairs, {way, way}, floats);
+        });
   }
   for (const Vec2 bad : {Vec2{0, 0}, {-0.0f, 0}, {NAN, 1}, {1, HUGE_VALF}}) {
     directions[1] = bad;
-    expect_refused("pair 1: direction (", [&] { penetration_along(set, agents, pairs, directions, depths); });
+    expect_refused("pair 1: expected a finite direction other than (0, 0), found (",
+                   [&] { penetration_along(set, agents, pairs, directions, depths); });
   }
   for (const std::uint32_t lines : {0u, 1u, 3u, 255u, 258u, ~0u})
     expect_refused("even number of directions from 2 to 256, found " + std::to_string(lines),
@@ -204,56 +213,73 @@ TEST_F(QueryInput, SizesAreNamed) {
   const Agents agents = crowd.agents();
   const std::vector<double> three(3, 1.0);
   const auto one = [](auto& values) { return std::span(values).first(1); };
-  expect_refused("2 pairs but 1 hits", [&] { collide(set, agents, pairs, one(hits)); });
-  expect_refused("2 pairs but 1 distances", [&] { clearance(set, agents, pairs, {one(floats)}); });
-  expect_refused("2 pairs but 0 distances", [&] { clearance(set, agents, pairs, {{}, directions}); });
-  expect_refused("2 pairs but 1 directions", [&] {
+  expect_refused("expected 2 hits, one per pair, found 1", [&] { collide(set, agents, pairs, one(hits)); });
+  expect_refused("expected 2 distances, one per pair, found 1",
+                 [&] { clearance(set, agents, pairs, {one(floats)}); });
+  expect_refused("expected 2 distances, one per pair, found 0", [&] {
+    clearance(set, agents, pairs, {{}, directions});
+  });
+  expect_refused("expected 2 directions, one per pair, found 1", [&] {
     clearance(set, agents, pairs, {floats, one(directions)});
   });
   std::vector<DiscPair> discs(1);
-  expect_refused("2 pairs but 1 discs", [&] { clearance(set, agents, pairs, {floats, {}, discs}); });
+  expect_refused("expected 2 discs, one per pair, found 1", [&] {
+    clearance(set, agents, pairs, {floats, {}, discs});
+  });
   std::vector<NearestPoints> points(1);
-  expect_refused("2 pairs but 1 points", [&] { clearance(set, agents, pairs, {floats, {}, {}, points}); });
-  expect_refused("within: 2 pairs but 0 distances", [&] { within(set, agents, pairs, {}, hits); });
-  expect_refused("within: 2 pairs but 3 distances", [&] { within(set, agents, pairs, three, hits); });
-  expect_refused("within: 2 pairs but 1 answers", [&] { within(set, agents, pairs, distances, one(hits)); });
-  expect_refused("2 pairs but 0 displacements in y", [&] {
+  expect_refused("expected 2 points, one per pair, found 1", [&] {
+    clearance(set, agents, pairs, {floats, {}, {}, points});
+  });
+  expect_refused("within: expected 2 distances, one per pair, found 0",
+                 [&] { within(set, agents, pairs, {}, hits); });
+  expect_refused("within: expected 2 distances, one per pair, found 3",
+                 [&] { within(set, agents, pairs, three, hits); });
+  expect_refused("within: expected 2 answers, one per pair, found 1",
+                 [&] { within(set, agents, pairs, distances, one(hits)); });
+  expect_refused("expected 2 displacements in y, one per pair, found 0", [&] {
     time_of_impact(set, agents, pairs, {way, {}}, floats);
   });
-  expect_refused("2 pairs but 3 displacements in x", [&] {
+  expect_refused("expected 2 displacements in x, one per pair, found 3", [&] {
     time_of_impact(set, agents, pairs, {three, way}, floats);
   });
   expect_refused("expected no displacements in z of outlines, found 2", [&] {
     time_of_impact(set, agents, pairs, {way, way, way}, floats);
   });
-  expect_refused("2 pairs but 1 times", [&] { time_of_impact(set, agents, pairs, {way, way}, one(floats)); });
-  expect_refused("2 pairs but 1 directions",
+  expect_refused("expected 2 times, one per pair, found 1", [&] {
+    time_of_impact(set, agents, pairs, {way, way}, one(floats));
+  });
+  expect_refused("expected 2 directions, one per pair, found 1",
                  [&] { penetration_along(set, agents, pairs, one(directions), depths); });
-  expect_refused("penetration: 2 pairs but 1 answers",
+  expect_refused("penetration: expected 2 answers, one per pair, found 1",
                  [&] { penetration(set, agents, pairs, 4, one(depths)); });
 }
 
 TEST_F(QueryInput, OptionsThatThereAreNot) {
   const Agents agents = crowd.agents();
   const auto leaves = static_cast<Leaves>(7);
-  expect_refused("collide: no leaves are 7", [&] { collide(set, agents, pairs, hits, {.leaves = leaves}); });
-  expect_refused("collide: no leaves are -1",
+  expect_refused("collide: expected leaves of 0 (discs) or 1 (segments), found 7",
+                 [&] { collide(set, agents, pairs, hits, {.leaves = leaves}); });
+  expect_refused("collide: expected leaves of 0 (discs) or 1 (segments), found -1",
                  [&] { collide(set, agents, pairs, hits, {.leaves = static_cast<Leaves>(-1)}); });
   EXPECT_THROW(finder.collisions(set, agents, {.leaves = leaves}), std::invalid_argument);
   EXPECT_THROW(finder.contacts(set, agents, pairs, {.leaves = leaves}), std::invalid_argument);
   EXPECT_THROW(finder.contacts(set, agents, {.leaves = leaves}), std::invalid_argument);
   EXPECT_THROW(clearance(set, agents, pairs, {floats}, {.leaves = leaves}), std::invalid_argument);
-  expect_refused("no overlap is 2",
+  expect_refused("expected an overlap of 0 (zero) or 1 (deepest), found 2",
                  [&] { clearance(set, agents, pairs, {floats}, {.overlap = Overlap{2}}); });
 }
 
 TEST_F(QueryInput, OfWholeCrowdsIsNamed) {
   crowd.x[1] = nan;
-  expect_refused("agent 1: position (nan, 0)", [&] { finder.collisions(set, crowd.agents()); });
-  expect_refused("agent 1: position (nan, 0)", [&] { finder.contacts(set, crowd.agents()); });
-  expect_refused("agent 1: position (nan, 0)", [&] { finder.candidates(set, crowd.agents()); });
+  expect_refused("agent 1: expected a position within +-1e9 m, found (nan, 0)",
+                 [&] { finder.collisions(set, crowd.agents()); });
+  expect_refused("agent 1: expected a position within +-1e9 m, found (nan, 0)",
+                 [&] { finder.contacts(set, crowd.agents()); });
+  expect_refused("agent 1: expected a position within +-1e9 m, found (nan, 0)",
+                 [&] { finder.candidates(set, crowd.agents()); });
   crowd.x[1] = 0, crowd.shape[1] = 2;
-  expect_refused("agent 1: shape 2 of 2", [&] { finder.candidates(set, crowd.agents()); });
+  expect_refused("agent 1: expected one of 2 shapes, found 2",
+                 [&] { finder.candidates(set, crowd.agents()); });
 }
 
 /// Rows that were found before stay as they are.
@@ -264,7 +290,8 @@ TEST_F(QueryInput, LeavesTheLastContacts) {
   const std::vector<DiscPair> contacts(rows.values.begin(), rows.values.end());
   EXPECT_FALSE(contacts.empty());
   crowd.heading[1] = nan;
-  expect_refused("pair 0: agent 1: heading nan", [&] { finder.contacts(set, crowd.agents(), pairs); });
+  expect_refused("pair 0: agent 1: expected a heading within +-1e9 rad, found nan",
+                 [&] { finder.contacts(set, crowd.agents(), pairs); });
   EXPECT_TRUE(std::ranges::equal(rows.offsets, offsets));
   EXPECT_TRUE(std::ranges::equal(rows.values, contacts));
 }

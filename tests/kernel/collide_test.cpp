@@ -108,7 +108,7 @@ TEST(Implementations, AreNamedAndEndWithOnesThatRunEverywhere) {
   EXPECT_TRUE(all.back().supported());
   EXPECT_EQ(implementation("scalar").kernels->width, 1u);
   EXPECT_EQ(test::complaint([] { implementation("altivec"); }),
-            "no implementation 'altivec' (known: " + known + ")");
+            "expected an implementation of " + known + ", found \'altivec\'");
 }
 
 constexpr std::uint8_t levels = 3;

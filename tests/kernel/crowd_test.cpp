@@ -179,7 +179,7 @@ TEST(Crowd, FiltersAsPhysicsEnginesDo) {
   expect_refused("filter: expected 400 values of category, one per agent, or none, found 399",
                  [&] { crowd.collisions(walkers, in.agents(), {}, {.category = category}); });
   const Pair beyond{3, 400};
-  expect_refused("filter: excluded pair 0 names agent 400 of 400", [&] {
+  expect_refused("filter: excluded pair 0: expected one of 400 agents, found 400", [&] {
     crowd.candidates(walkers, in.agents(), 0, {.excluded = {&beyond, 1}});
   });
 }

@@ -171,9 +171,9 @@ TEST_F(TwoBoxes, NeedASetWithHeightsAndAZEach) {
   const auto complaint = [&](const ShapeSet& of, const std::vector<double>& z) {
     return test::complaint([&] { hit(of, z); });
   };
-  EXPECT_EQ(complaint(flat, {0, 0}), "agents: they have a z, and the set was planned without heights");
-  EXPECT_EQ(complaint(set, {0, NAN}), "pair 0: agent 1: z nan m is not within +-1e9");
-  EXPECT_EQ(complaint(set, {0}), "agents: 2 shapes but 1 values of z");
+  EXPECT_EQ(complaint(flat, {0, 0}), "agents: expected no z for a set without heights, found some");
+  EXPECT_EQ(complaint(set, {0, NAN}), "pair 0: agent 1: expected a z within +-1e9 m, found nan");
+  EXPECT_EQ(complaint(set, {0}), "agents: expected 2 values of z, one per shape, found 1");
   EXPECT_EQ(complaint(set, {}), "accepted");
   Shape upside_down = shape_from_discs(std::vector<Disc>{{0, 0, 0.2f}});
   upside_down.heights = {1, 0};

@@ -277,9 +277,10 @@ TEST_F(NearestFreeOutlines, RefusesWhatIsInvalid) {
   };
   EXPECT_EQ(said(16, 1), "accepted");
   EXPECT_EQ(said(3, 1), "nearest_free: expected an even number of directions from 2 to 256, found 3");
-  EXPECT_TRUE(test::has(said(16, 7), "nearest_free: no leaves are 7")) << said(16, 7);
+  EXPECT_TRUE(test::has(said(16, 7), "nearest_free: expected leaves of 0 (discs) or 1 (segments), found 7"))
+      << said(16, 7);
   ways.resize(2);
-  EXPECT_EQ(said(16, 1), "nearest_free: 1 pairs but 2 answers");
+  EXPECT_EQ(said(16, 1), "nearest_free: expected 1 answers, one per pair, found 2");
 }
 
 }  // namespace

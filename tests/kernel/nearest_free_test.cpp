@@ -191,11 +191,11 @@ TEST(NearestFree, RefusesWhatIsInvalid) {
   const std::vector<Pair> one = {{0, 1}}, two = {{0, 1}, {0, 2}}, nobody = {{0, 99}};
   EXPECT_EQ(said(one, 16), "accepted");
   EXPECT_EQ(said(one, 3), "nearest_free: expected an even number of directions from 2 to 256, found 3");
-  EXPECT_EQ(said(two, 16), "nearest_free: 2 pairs but 1 answers");
+  EXPECT_EQ(said(two, 16), "nearest_free: expected 2 answers, one per pair, found 1");
   Touches touches(2);
   EXPECT_EQ(test::complaint(
                 [&] { nearest_free(scene.bodies, scene.crowd.agents(), one, 16, ways, nullptr, touches); }),
-            "nearest_free: 1 pairs but 2 touches");
+            "nearest_free: expected 1 touches, one per pair, found 2");
   EXPECT_TRUE(test::has(said(nobody, 16), "99"));
 }
 

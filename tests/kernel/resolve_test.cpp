@@ -217,7 +217,7 @@ TEST(Resolve, RefusesWhatIsInvalid) {
   expect_refused({.largest_shift = -1}, "resolve: expected a largest_shift of 0 to inf m, found -1");
   expect_refused({.largest_turn = -1}, "resolve: expected a largest_turn of 0 to 3.2 rad, found -1");
   expect_refused({.largest_turn = NAN}, "resolve: expected a largest_turn of 0 to 3.2 rad, found nan");
-  expect_refused({.mobility = two}, "resolve: 3 agents but 2 mobilities");
+  expect_refused({.mobility = two}, "resolve: expected 3 mobilities, one per agent, found 2");
   expect_refused({.mobility = large}, "resolve: agent 2: expected a mobility of 0 to 1, found 2");
 }
 

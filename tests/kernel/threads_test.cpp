@@ -210,7 +210,7 @@ TEST_F(CApiThreads, ObjectsGoFromThreadToThread) {
   }
 }
 
-/// Of threads that free one object at the same time, one does, and the others are told that it is no living object.
+/// Of threads that free one object at the same time, one does, and the others are told that it is not a live object.
 TEST_F(CApiThreads, OneOfThemFreesAnObject) {
   const auto expect_one = [](auto* object, auto* free) {
     std::vector<bch_status> said(thread_count);

@@ -42,7 +42,7 @@ TEST(ContourHierarchy, RejectsBadInput) {
   for (const float threshold : {0.0f, -1.0f, nan, std::numeric_limits<float>::infinity()})
     EXPECT_THROW(contour_hierarchy(good, threshold), std::invalid_argument);
   EXPECT_EQ(test::complaint([&] { contour_hierarchy(good, -1e-9f); }),
-            "hierarchy: threshold -1e-09 m is not positive and finite");
+            "hierarchy: expected a threshold above 0 m, found -1e-09");
   EXPECT_THROW(contour_hierarchy(good, 1e-8f), std::length_error);
   EXPECT_THROW(contour_hierarchy(Outline{}, 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {nan, 0}, {0, 1}}), 0.01f), std::invalid_argument);
@@ -116,8 +116,7 @@ TEST(Hierarchy, IsCheckedNodeByNode) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   expect_rejected("no nodes", [](Hierarchy& h) { h.nodes.clear(); });
   expect_rejected("extent", [](Hierarchy& h) { h.max_extent = 0; });
-  expect_rejected("extent",
-                  [](Hierarchy& h) { h.max_extent = std::numeric_limits<double>::quiet_NaN(); });
+  expect_rejected("extent", [](Hierarchy& h) { h.max_extent = std::numeric_limits<double>::quiet_NaN(); });
   expect_rejected("node 3", [](Hierarchy& h) { h.nodes[3].disc.x = nan; });
   expect_rejected("node 0", [](Hierarchy& h) { h.nodes[0].disc.y = 2; });
   expect_rejected("node 5", [](Hierarchy& h) { h.nodes[5].disc.radius = 0; });

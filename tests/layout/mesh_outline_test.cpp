@@ -241,7 +241,7 @@ TEST(MeshOutline, RefusesBadInput) {
     soup = frame();
     for (Vec3& p : soup.positions) p = {size * p.x, size * p.y, p.z};
     EXPECT_EQ(complaint_about({}),
-              std::string("outline: extent ") + max_extent + " m is outside 1e-6 to 1e6 m");
+              std::string("outline: expected an extent of 1e-6 to 1e6 m, found ") + max_extent);
   }
   soup = {};
   EXPECT_EQ(complaint_about({}), "outline: no triangles");
@@ -258,7 +258,7 @@ TEST(MeshOutline, RefusesBadInput) {
     two[soup.positions.size() + 3].x = 1e9f;
     EXPECT_EQ(
         test::complaint([&] { outlines(two, soup.positions.size(), soup.triangles, {.holes = holes}); }),
-        "pose 1: outline: extent 1e+09 m is outside 1e-6 to 1e6 m");
+        "pose 1: outline: expected an extent of 1e-6 to 1e6 m, found 1e+09");
   }
   EXPECT_THROW(outlines(soup.positions, 7, soup.triangles), std::invalid_argument);
   EXPECT_THROW(outlines(default_male(), sample_poses(default_male(), 400),

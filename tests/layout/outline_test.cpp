@@ -92,7 +92,7 @@ TEST(OutlineFromPolygons, RejectsWhatIsNone) {
   expect("polygon 0: 0 different corners", {{}});
   expect("polygon 0: it has no area", {{{0, 0}, {1, 1}, {2, 2}}});
   expect("polygon 1: corner 2 is not finite", {footprint, {{0, 0}, {1, 0}, {nan, 1}}});
-  expect("outline: extent 1414213.5623730961 m is outside 1e-6 to 1e6 m",
+  expect("outline: expected an extent of 1e-6 to 1e6 m, found 1414213.5623730961",
          {{{0, 0}, {1e6f, 0}, {1e6f, 1e6f}}});
 }
 

@@ -231,12 +231,17 @@ TEST(ShapeFromCapsules, RejectsWhatIsNone) {
     return test::complaint([&] { shape_from_capsules(capsules, tolerance); });
   };
   const Capsule good{{0, 0}, {1, 0}, 0.1f};
-  EXPECT_EQ(complaint({}), "shape: no capsules");
-  EXPECT_EQ(complaint({good, {{0, 0}, {1, 0}, 0}}), "shape: capsule 1 of 0 m is none, or beyond 1e6 m");
-  EXPECT_EQ(complaint({{{0, std::nanf("")}, {1, 0}, 1}}), "shape: capsule 0 of 1 m is none, or beyond 1e6 m");
-  EXPECT_EQ(complaint({good}, 0), "shape: a tolerance of 0 m");
-  EXPECT_EQ(complaint({good}, -1), "shape: a tolerance of -1 m");
-  EXPECT_EQ(complaint({good}, 1e-9f), "shape: capsule 0: a tolerance of 1e-09 m is too small for its size");
+  EXPECT_EQ(complaint({}), "shape: expected at least one capsule, found none");
+  EXPECT_EQ(
+      complaint({good, {{0, 0}, {1, 0}, 0}}),
+      "shape: capsule 1: expected a radius above 0 m and an extent of at most 1e6 m, found a radius of 0");
+  EXPECT_EQ(
+      complaint({{{0, std::nanf("")}, {1, 0}, 1}}),
+      "shape: capsule 0: expected a radius above 0 m and an extent of at most 1e6 m, found a radius of 1");
+  EXPECT_EQ(complaint({good}, 0), "shape: expected a tolerance above 0 m, found 0");
+  EXPECT_EQ(complaint({good}, -1), "shape: expected a tolerance above 0 m, found -1");
+  EXPECT_EQ(complaint({good}, 1e-9f),
+            "shape: capsule 0: expected a larger tolerance for its size, found 1e-09 m");
   EXPECT_EQ(complaint({good}, 1e-6f), "accepted");
   EXPECT_NE(test::complaint([] { shape_from_polygons({}); }), "accepted");
 }

@@ -177,7 +177,8 @@ TEST(PoseInput, IsRejectedWhereItDoesNotFit) {
   EXPECT_EQ(complaint_of(PosedVertices{vertices}),
             "shape: expected finite posed vertices, found others at index 7");
   vertices[7] = {3e6f, 0, 0};
-  EXPECT_EQ(complaint_of(PosedVertices{vertices}), "outline: extent 3e+06 m is outside 1e-6 to 1e6 m");
+  EXPECT_EQ(complaint_of(PosedVertices{vertices}),
+            "outline: expected an extent of 1e-6 to 1e6 m, found 3e+06");
   local[3].rows[2][1] = std::nan("");
   EXPECT_EQ(complaint_of(LocalPose{local}),
             "shape: expected finite joint transforms, found others at index 3");

@@ -88,7 +88,7 @@ class Pairs(unittest.TestCase):
         self.near(touches["point"][0, 0], 0.5, 1e-4)
         with self.assertRaisesRegex(bch.ArrayError, "touches .* bch.TOUCH"):
             bch.nearest_free(SHAPES, LINE, PAIRS, touches=free)
-        with self.assertRaisesRegex(bch.ArrayError, "wanted is an array of pairs"):
+        with self.assertRaisesRegex(bch.ArrayError, "expected an array of pairs"):
             bch.nearest_free(SHAPES, LINE, WALL)
 
     def test_nearest_free_of_all(self):
@@ -274,7 +274,7 @@ class Scenes(unittest.TestCase):
             self.assertEqual(bch.time_of_impact(bodies, agents, pairs, *moved, implementation=name).tolist(), [0, 0, np.inf, np.inf])
             times = bch.time_of_impact(bodies, agents, pairs, *moved, dz=np.array([0, 0, 0.4, -1.0]), implementation=name)
             np.testing.assert_allclose(times, [0, 0, 0.25, np.inf], atol=1e-4)
-        with self.assertRaisesRegex(bch.ArrayError, "dz is given; wanted is a bch.BodySet"):
+        with self.assertRaisesRegex(bch.ArrayError, "dz is given; expected a bch.BodySet"):
             bch.time_of_impact(SHAPES, LINE, PAIRS, np.zeros(3), np.zeros(3), dz=np.zeros(3))
         nearest = bch.nearest(bodies, agents, pairs, max_distance=0.2, overlap="deepest")
         np.testing.assert_allclose(nearest.distance[:3], [-0.1, -0.1, 0.1], atol=1e-4)
@@ -473,7 +473,7 @@ class Outlines(unittest.TestCase):
             bch.outline(vertices, triangles - 1)
         with self.assertRaisesRegex(bch.ArgumentError, "pose 0: outline: triangle|triangle 0 names vertex 99"):
             bch.outline(vertices, triangles + 99)
-        with self.assertRaisesRegex(bch.ArrayError, r"wanted is \(n, 3\)"):
+        with self.assertRaisesRegex(bch.ArrayError, r"expected \(n, 3\)"):
             bch.outline(vertices[:, :2], triangles)
         with self.assertRaisesRegex(bch.ArgumentError, "between 1 and 0 m there is nothing"):
             bch.outline(vertices, triangles, heights=(1, 0))

@@ -64,7 +64,7 @@ class Errors(unittest.TestCase):
         for shape, words in (([0.5, 1], "integers with shape (n,)"), ([0, -1], "shape[1] is -1; expected an index from 0 to 4294967295"), ([2**32, 0], "shape[0] is 4294967296")):
             self.expect((TypeError, IndexError), [words], bch.Agents, shape, x, x, x)
         self.expect(IndexError, ["level[0] is 256; expected an index from 0 to 255"], bch.Agents, [0, 0], x, x, x, [256, 0])
-        self.expect(TypeError, ["x is a list; wanted is numbers with shape (2,)"], bch.Agents, [0, 0], ["a", "b"], x, x)
+        self.expect(TypeError, ["x is a list; expected numbers with shape (2,)"], bch.Agents, [0, 0], ["a", "b"], x, x)
 
     def test_values(self):
         collide = lambda **more: bch.collide(self.shapes, self.agents, self.pairs, **more)
@@ -392,13 +392,13 @@ class Sets(unittest.TestCase):
         np.testing.assert_allclose(bch.clearance(box, agents, walls, leaves="segments"), [0, 0, 1], atol=1e-5)
         with self.assertRaisesRegex(bch.ArrayError, "heights is .*float64 with shape \\(2, 2\\)"):
             bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.zeros(2))
-        with self.assertRaisesRegex(ValueError, "obstacle 1: heights from 3 to 2 m"):
+        with self.assertRaisesRegex(ValueError, "obstacle 1: expected a bottom below the top, found 3 to 2 m"):
             bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.array([(0.0, 1), (3, 2)]))
         wall = "LINESTRING(-1 0.5, 2 0.5)"
         for heights, hits in (((1.0, 3.0), [1, 1, 0]), ((1.6, 3.0), [0, 1, 0]), ((-np.inf, np.inf), [1, 1, 1])):
             self.assertEqual(bch.collide(box, agents, bch.Obstacles.from_wkt(wall, heights=heights)).tolist(), hits)
         self.assertEqual(bch.collide(box, agents, bch.Obstacles.from_wkt(wall)).tolist(), [1, 1, 1])
-        with self.assertRaisesRegex(ValueError, "obstacle 0: heights from 3 to 2 m"):
+        with self.assertRaisesRegex(ValueError, "obstacle 0: expected a bottom below the top, found 3 to 2 m"):
             bch.Obstacles.from_wkt(wall, heights=(3, 2))
 
     def test_baking(self):
@@ -442,8 +442,8 @@ class Sets(unittest.TestCase):
         np.testing.assert_array_equal(man.blend(poses[:2], [0, 2]), local[1])
         for bad, message in [
             (bch.Transforms(local[:, 1:], "parent"), r"poses\[[0-3]\]: shape: expected 27 joint transforms, found 26"),
-            (bch.Transforms(local[0], "parent"), r"transforms is .*; wanted is an array of floats with shape \(frames, n, 3, 4\)"),
-            (bch.Transforms(local.astype(int)), "wanted is an array of floats"),
+            (bch.Transforms(local[0], "parent"), r"transforms is .*; expected an array of floats with shape \(frames, n, 3, 4\)"),
+            (bch.Transforms(local.astype(int)), "expected an array of floats"),
             (bch.Transforms(local, "bones"), "space is 'bones'"),
             (bch.Transforms(local, "palette", np.zeros((3, 2))), r"origins is .*shape \(4, 2\)"),
             (bch.Vertices(vertices[:, :9]), "posed vertices, found 9"),
@@ -541,7 +541,7 @@ class Sets(unittest.TestCase):
             bch.first_contact([swing], pairs, (0, 1))
         with self.assertRaises(bch.ArrayError):
             bch.AnimatedShape([0, 1], [[0, 0, 0.2]])
-        with self.assertRaisesRegex(bch.ArgumentError, "chunk 0: a key at 0 s after one at 1 s"):
+        with self.assertRaisesRegex(bch.ArgumentError, "chunk 0: expected a key after 1 s, found 0"):
             bch.AnimatedShape([1, 0], [[[0, 0, 0.2]]] * 2)
 
     def test_clips_of_sets(self):
@@ -929,7 +929,7 @@ class Recordings(unittest.TestCase):
             (ValueError, "^recording: column 'x' does not have a number in every row$", {**columns, "x": columns["x"][:, None]}),
             (IndexError, r"^id\[0\] is 9223372036854775808, above 9223372036854775807$", {**columns, "id": far}),
             (TypeError, "^recording is not given, nor are arrays", {}),
-            (TypeError, "^recording is a int; wanted is a path, or a table with columns by name", {"recording": 7}),
+            (TypeError, "^recording is a int; expected a path, or a table with columns by name", {"recording": 7}),
             (ValueError, "^recording: has no column called 'id', only 'x, y'$", {"recording": {n: columns[n] for n in ("x", "y")}}),
             (TypeError, "^recording and y are both given", {"recording": self.path, "y": columns["y"]}),
         ):

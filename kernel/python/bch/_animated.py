@@ -37,7 +37,7 @@ class AnimatedShape:
     def __init__(self, times: npt.ArrayLike, discs: npt.ArrayLike, *, loops: bool = False) -> None:
         keys, all_discs = converted(times, f8, "times"), converted(discs, f4, "discs")
         if keys.ndim != 1 or all_discs.ndim != 3 or len(all_discs) != len(keys) or all_discs.shape[2] not in (3, 4):
-            raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; wanted are (k, n, 3) or (k, n, 4) at (k,)")
+            raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; expected (k, n, 3) or (k, n, 4) at (k,)")
         heights = None
         if all_discs.shape[2] == 4:
             heights = np.ascontiguousarray(all_discs[:, :, 2])

@@ -88,7 +88,7 @@ def fits(array: Any, dtype: np.dtype[Any], shape: Shape) -> bool:
 def given(array: Any, dtype: np.dtype[Any], shape: Shape, name: str) -> int:
     """Return the address of an array of the caller, or raise an error that says what is wanted instead."""
     if not fits(array, dtype, shape):
-        wanted = f"wanted is a C-contiguous array of {_dtype_words(dtype)} with shape {_shape_words(shape)}"
+        wanted = f"expected a C-contiguous array of {_dtype_words(dtype)} with shape {_shape_words(shape)}"
         if name.startswith("out"):
             raise ArrayError(f"{name} is {_words(array)}; {wanted}, such as numpy.empty makes")
         raise ArrayError(f"{name} is {_words(array)}; {wanted}; numpy.ascontiguousarray converts")
@@ -131,7 +131,7 @@ def numbers(named: Dict[str, Any], shapes: Dict[str, Shape]) -> Dict[str, npt.ND
         if array.dtype.kind not in "fiu" or isinstance(array, np.ma.MaskedArray) or not _has_shape(array, shapes[name]):
             raise rejected(values, name, f"numbers with shape {_shape_words(shapes[name])}")
         if kinds.get(name, dtype) != dtype:
-            raise ArrayError(f"{name} is {_words(values)}; wanted is {dtype.name}, as {next(iter(kinds))} has")
+            raise ArrayError(f"{name} is {_words(values)}; expected {dtype.name}, as {next(iter(kinds))} has")
         arrays[name] = _strided(array if name in kinds else array.astype(dtype))
     return arrays
 
@@ -149,7 +149,7 @@ def _strided(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 def rejected(value: Any, name: str, wanted: str) -> ArrayError:
     """Return the error about an argument of a wrong type."""
-    return ArrayError(f"{name} is {_words(value)}; wanted is {wanted}")
+    return ArrayError(f"{name} is {_words(value)}; expected {wanted}")
 
 
 def instance(value: Any, kind: Type[T], name: str) -> T:
@@ -189,7 +189,7 @@ def pair(values: Any, name: str) -> Tuple[float, float]:
     """Return two numbers, or raise an error that names them."""
     found = listed(values, name, "two numbers")
     if len(found) != 2:
-        raise ArgumentError(f"{name} has length {len(found)}; wanted are two numbers")
+        raise ArgumentError(f"{name} has length {len(found)}; expected two numbers")
     return number(found[0], f"{name}[0]"), number(found[1], f"{name}[1]")
 
 
@@ -206,7 +206,7 @@ def one_of(words: Dict[str, int], word: Any, name: str) -> int:
     if not isinstance(word, str):
         raise rejected(word, name, wanted)
     if word not in words:
-        raise ArgumentError(f"{name} is {word!r}; it is {wanted}")
+        raise ArgumentError(f"{name} is {word!r}; expected {wanted}")
     return words[word]
 
 
@@ -222,7 +222,7 @@ def index(value: Any, name: str, end: int) -> int:
     """Return a whole number from 0 to below `end`, or raise an error that names it."""
     number = integer(value, name)
     if not 0 <= number < end:
-        raise RangeError(f"{name} is {number}, not from 0 to {end - 1}")
+        raise RangeError(f"{name} is {number}; expected 0 to {end - 1}")
     return number
 
 
@@ -230,7 +230,7 @@ def bounded(value: Any, name: str, low: int, high: int) -> int:
     """Return a whole number within bounds, or raise an error that names it."""
     number = integer(value, name)
     if not low <= number <= high:
-        raise ArgumentError(f"{name} is {number}, not from {low} to {high}")
+        raise ArgumentError(f"{name} is {number}; expected {low} to {high}")
     return number
 
 
@@ -256,7 +256,7 @@ def table(values: Any, dtype: np.dtype[Any], columns: int, name: str) -> npt.NDA
     whole = dtype.kind == "u"
     if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in ("iu" if whole else "iuf"):
         kind = "whole numbers" if whole else "numbers"
-        raise ArrayError(f"{name} is {_words(array)}; wanted are rows of {columns} {kind}")
+        raise ArrayError(f"{name} is {_words(array)}; expected rows of {columns} {kind}")
     if whole and array.size > 0 and not (array.min() >= 0 and array.max() < 2**32):
         raise RangeError(f"{name} has {array.min()} and {array.max()}, which are no indices")
     return np.ascontiguousarray(array, dtype)

@@ -79,7 +79,7 @@ class _Arrays:
         for i, each in enumerate(maps):
             found = np.eye(4) if each is None else as_array(each, f"{name} {i}")
             if found.shape not in ((3, 4), (4, 4)) or found.dtype.kind not in "iuf":
-                raise ArrayError(f"{name} {i} has shape {found.shape}; wanted is (3, 4) or (4, 4)")
+                raise ArrayError(f"{name} {i} has shape {found.shape}; expected (3, 4) or (4, 4)")
             rows[i] = found[:3]
         return self.keep(rows)
 
@@ -88,7 +88,7 @@ class _Arrays:
             return _library.Curve()
         instance(curve, Curve, "a curve of a channel")
         if curve.interpolation not in _interpolations:
-            raise ArgumentError(f"interpolation is {curve.interpolation!r}; it is one of {', '.join(_interpolations)}")
+            raise ArgumentError(f"interpolation is {curve.interpolation!r}; expected one of {', '.join(_interpolations)}")
         times = converted(curve.times, f4, "the times of a curve")
         values = table(curve.values, f4, width, "the values of a curve")
         if times.shape != (len(values),):
@@ -98,7 +98,7 @@ class _Arrays:
             given_tangents = () if curve.tangents is None else curve.tangents
             tangents = converted(given_tangents, f4, "the tangents of a curve")
             if tangents.shape != (len(values), 2, width):
-                raise ArrayError(f"the tangents of a curve have shape {tangents.shape}, not {(len(values), 2, width)}")
+                raise ArrayError(f"the tangents of a curve have shape {tangents.shape}; expected {(len(values), 2, width)}")
         return _library.Curve(
             times=self.keep(times),
             values=self.keep(values),

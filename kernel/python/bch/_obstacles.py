@@ -156,7 +156,7 @@ def _of_geojson(geometry: Mapping[str, Any], name: str) -> str:
     if kind == "Feature":
         return _of_geojson(geometry["geometry"], name)
     if "coordinates" not in geometry:
-        raise ArrayError(f"{name} is a mapping of type {kind!r} without coordinates; wanted is a geometry of GeoJSON")
+        raise ArrayError(f"{name} is a mapping of type {kind!r} without coordinates; expected a geometry of GeoJSON")
     return f"{kind.upper()} {_coordinates(geometry['coordinates'])}"
 
 

@@ -111,7 +111,7 @@ def outline(
         positions = as_array(body, "body")
         alone = positions.ndim == 2
         if positions.ndim not in (2, 3) or positions.shape[-1] != 3 or positions.dtype.kind not in "iuf":
-            raise ArrayError(f"body is an array of {positions.dtype} with shape {positions.shape}; wanted is (n, 3) or (frames, n, 3)")
+            raise ArrayError(f"body is an array of {positions.dtype} with shape {positions.shape}; expected (n, 3) or (frames, n, 3)")
         array = np.ascontiguousarray(positions, f4)
         corners = table(triangles, u4, 3, "triangles")
         count = 1 if alone else len(array)

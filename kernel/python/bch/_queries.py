@@ -193,7 +193,7 @@ def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = Fa
     """Return the addresses of a set, of bodies or of shapes, and of agents, or raise an error if an argument is something else."""
     if not isinstance(shapes, BodySet if bodies else ShapeSet):
         hint = "; ask about its .shapes" if hasattr(shapes, "shapes") else ""
-        raise ArrayError(f"shapes is a {type(shapes).__name__}; wanted is a bch.ShapeSet{hint}")
+        raise ArrayError(f"shapes is a {type(shapes).__name__}; expected a bch.ShapeSet{hint}")
     if not isinstance(agents, Agents):
         raise rejected(agents, "agents", "a bch.Agents")
     return shapes._pointer, agents._pointer
@@ -594,7 +594,7 @@ def time_of_impact(
     """
     bodies = isinstance(shapes, BodySet)
     if dz is not None and not bodies:
-        raise ArrayError("dz is given; wanted is a bch.BodySet for shapes, or no dz: outlines do not move up or down")
+        raise ArrayError("dz is given; expected a bch.BodySet for shapes, or no dz: outlines do not move up or down")
     call, n = _bound_query("time_of_impact", shapes, agents, pairs)
     times = result(out, f4, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)

@@ -288,9 +288,9 @@ def _table_of(recording: Any, arrays: Dict[str, Any]) -> Optional[Table]:
     """Return the table that a recording is, or arrays are; None where it is a file."""
     given = {name: values for name, values in arrays.items() if values is not None}
     if recording is not None and given:
-        raise ArrayError(f"recording and {given.popitem()[0]} are both given; wanted is one of them")
+        raise ArrayError(f"recording and {given.popitem()[0]} are both given; expected one of them")
     if recording is None and not given:
-        raise ArrayError("recording is not given, nor are arrays; wanted are id, x, y and frame or time")
+        raise ArrayError("recording is not given, nor are arrays; expected id, x, y and frame or time")
     if isinstance(recording, (str, bytes, os.PathLike)):
         return None
     return Table(given, _UNITS) if recording is None else table_of(recording)

@@ -367,7 +367,7 @@ TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
   expect_ok(bch_obstacles_from_wkt("LINESTRING(0 0, 1 1)", 0, -HUGE_VAL, HUGE_VAL, &freed));
   expect_ok(bch_obstacles_free(freed));
   expect_said(BCH_INVALID_ARGUMENT, "options->max_distance is 11.000000", [&] { options.max_distance = 11; });
-  expect_said(BCH_INVALID_ARGUMENT, "options->walls is no living bch_obstacles; was it freed?",
+  expect_said(BCH_INVALID_ARGUMENT, "options->walls is not a live bch_obstacles; was it freed?",
               [&] { options.walls = freed; });
   expect_said(BCH_INVALID_ARGUMENT, "64, 128, 256 or 512 spheres, found 65", [&] { options.spheres = 65; });
   expect_said(BCH_INVALID_ARGUMENT,
@@ -377,7 +377,7 @@ TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
   expect_said(BCH_CANCELLED, "cancelled by the caller",
               [&] { options.progress = [](void*, std::uint64_t, std::uint64_t) { return 1; }; });
   EXPECT_EQ(bch_check_free(reinterpret_cast<bch_check*>(freed)), BCH_INVALID_ARGUMENT);
-  EXPECT_STREQ(bch_last_error(), "check is no living bch_check; was it freed?");
+  EXPECT_STREQ(bch_last_error(), "check is not a live bch_check; was it freed?");
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(CApiMisuse, ObjectsThatAreNot) {
   std::size_t count = 0;
   expect_invalid(bch_crowd_collisions(reinterpret_cast<bch_crowd*>(set.get()), set.get(), &agents, nullptr,
                                       nullptr, &pairs, &count),
-                 "crowd is no living bch_crowd");
+                 "crowd is not a live bch_crowd");
   expect_ok(bch_crowd_free(crowd_of_pairs));
   expect_invalid(bch_crowd_free(crowd_of_pairs), "was it freed?");
   expect_invalid(bch_crowd_collisions(crowd_of_pairs, set.get(), &agents, nullptr, nullptr, &pairs, &count),
@@ -92,7 +92,7 @@ TEST_F(CApiMisuse, TheSetThatADynamicOneLends) {
   hit = 77;
   expect_invalid(bch_shape_set_free(const_cast<bch_shape_set*>(lent)), "belongs to");
   expect_ok(bch_dynamic_shape_set_free(dynamic));
-  expect_invalid(bch_collide(lent, &agents, &pair, 1, nullptr, &hit), "no living bch_shape_set");
+  expect_invalid(bch_collide(lent, &agents, &pair, 1, nullptr, &hit), "not a live bch_shape_set");
 }
 
 /// Structs of callers that were built with other versions.
@@ -106,9 +106,9 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   EXPECT_EQ(hit, 1);
   hit = 77;
   future.later[1] = 5;
-  expect_invalid(
-      bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit),
-      "options->size is " + std::to_string(sizeof future) + ", and fields that this version does not know");
+  expect_invalid(bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit),
+                 "options->size is " + std::to_string(sizeof future) +
+                     "; expected 0 in members that this version does not know");
 
   // Of the past: what it does not have yet is as if it had been left alone.
   options.leaves = 99;
@@ -132,16 +132,17 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
       expect_ok(run_query());
       hit = 77;
     } else {
-      expect_invalid(run_query(), "options->size is " + std::to_string(size) + ", inside a member");
+      expect_invalid(run_query(),
+                     "options->size is " + std::to_string(size) + "; expected the end of a member");
     }
   }
   bch_clearance_out cut = BCH_CLEARANCE_OUT_INIT;
   cut.size = offsetof(bch_clearance_out, points) + 4;
-  expect_invalid(bch_clearance(set.get(), &agents, &pair, 1, nullptr, &cut), "inside a member");
+  expect_invalid(bch_clearance(set.get(), &agents, &pair, 1, nullptr, &cut), "expected the end of a member");
 
   bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
   info.size = offsetof(bch_shape_set_info, bytes) + 4;
-  expect_invalid(bch_shape_set_get_info(set.get(), &info), "inside a member");
+  expect_invalid(bch_shape_set_get_info(set.get(), &info), "expected the end of a member");
   EXPECT_EQ(info.shapes, 0u);
   info.bytes = 123;
   info.size = offsetof(bch_shape_set_info, bytes);
@@ -190,7 +191,7 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   bch_shape_set_builder* none = nullptr;
   bch_plan plan = BCH_PLAN_INIT;
   plan.depths = depths, plan.depth_count = 2;
-  expect_invalid(bch_shape_set_builder_create(&plan, &none), "depth 0 does not ascend");
+  expect_invalid(bch_shape_set_builder_create(&plan, &none), "expected ascending depths, found 0 after 3");
   plan = BCH_PLAN_INIT;
   plan.threshold = -1;
   expect_invalid(bch_shape_set_builder_create(&plan, &none), "plan->threshold");
@@ -246,7 +247,7 @@ TEST_F(CApiMisuse, Obstacles) {
   arrays.polyline_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
   expect_invalid(bch_obstacles_create(&arrays, &none), "arrays->obstacle_offsets has");
   arrays.obstacle_offsets = nullptr, arrays.bottom = &up, arrays.top = &down;
-  const char* const word = "obstacles: obstacle 0: heights from 2 to 1 m";
+  const char* const word = "obstacles: obstacle 0: expected a bottom below the top, found 2 to 1 m";
   expect_invalid(bch_obstacles_create(&arrays, &none), word);
   expect_invalid(bch_obstacles_from_wkt("LINESTRING(0 0, 1 1)", 0, up, down, &none), word);
   EXPECT_EQ(none, nullptr);

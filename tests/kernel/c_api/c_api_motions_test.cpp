@@ -199,7 +199,8 @@ TEST(CApiMotions, NameWhatIsWrong) {
   Arrays bad(disc);
   bad.all[1].radius = -1;
   EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)),
-            "animated shape: chunk 0: disc 0 at key 1, of -1 m at (0, 0) m");
+            "animated shape: chunk 0: disc 0 at key 1: expected a radius of at least 0 m about a finite "
+            "centre, found -1 about (0, 0)");
   bad.arrays.times = nullptr;
   EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)), "arrays->times is NULL");
   EXPECT_EQ(none, nullptr);
@@ -208,12 +209,12 @@ TEST(CApiMotions, NameWhatIsWrong) {
   const bch_pair pair = {0, 1};
   double time = 77;
   EXPECT_EQ(said(bch_first_contact(motions, 2, &pair, 1, 0, 1, 0.005, 0, &time)),
-            "first_contact: motion 1: a path without keys");
+            "first_contact: motion 1: expected a path of keys, found none");
   motions[1].shape = nullptr;
   EXPECT_EQ(said(bch_first_contact(motions, 2, &pair, 1, 0, 1, 0.005, 0, &time)), "motions[1].shape is NULL");
   EXPECT_EQ(said(bch_free_until(nullptr, motions, 1, 0, 1, 0.005, &time)), "motion is NULL");
   EXPECT_EQ(said(bch_free_until(motions, motions, 1, 1, 0, 0.005, &time)),
-            "free_until: from 1 s to 0 s is no interval within +-1e6 s");
+            "free_until: expected an interval within +-1e6 s, found 1 to 0");
   EXPECT_EQ(time, 77);
 }
 
@@ -374,8 +375,8 @@ TEST_F(CApiPoses, AreRejectedWhereTheyDoNotFit) {
     EXPECT_EQ(bch_last_error(), message);
   };
   expect_rejected([](auto& a) { a.count = 26; }, "poses[1]: shape: expected 27 joint transforms, found 26");
-  expect_rejected([](auto& a) { a.kind = 4; }, "poses->kind is 4");
-  expect_rejected([](auto& a) { a.layout = -1; }, "poses->layout is -1");
+  expect_rejected([](auto& a) { a.kind = 4; }, "poses->kind is 4; expected 0 to 3");
+  expect_rejected([](auto& a) { a.layout = -1; }, "poses->layout is -1; expected 0 to 3");
   expect_rejected([](auto& a) { a.stride = 11; }, "poses->stride is 11");
   expect_rejected([](auto& a) { a.kind = BCH_POSED_VERTICES; }, "poses->layout is 2");
   expect_rejected([](auto& a) { a.data = nullptr; }, "poses->data is NULL");

@@ -285,36 +285,41 @@ TEST(FirstContact, RefusesWhatIsNoMotion) {
   };
   const auto with_path = [&](std::vector<PathKey> path) { return said_of({&good.shape, path, 0}); };
   EXPECT_EQ(said_of(good.motion()), "accepted");
-  EXPECT_EQ(said_of({nullptr, good.path, 0}), "first_contact: motion 1: no shape");
+  EXPECT_EQ(said_of({nullptr, good.path, 0}), "first_contact: motion 1: expected a shape, found none");
   EXPECT_EQ(said_of({&good.shape, good.path, nan}),
-            "first_contact: motion 1: its clip begins at nan s, not within +-1e6");
-  EXPECT_EQ(with_path({}), "first_contact: motion 1: a path without keys");
+            "first_contact: motion 1: expected a clip that begins within +-1e6 s, found nan");
+  EXPECT_EQ(with_path({}), "first_contact: motion 1: expected a path of keys, found none");
   EXPECT_EQ(with_path({{0, 0, 0, 0}, {0, 0, 0, 0}}),
-            "first_contact: motion 1: key 1 of its path at 0 s after one at 0 s");
+            "first_contact: motion 1: key 1 of its path: expected a time after 0 s, found 0");
   EXPECT_EQ(with_path({{nan, 0, 0, 0}}),
-            "first_contact: motion 1: key 0 of its path at nan s, not within +-1e6");
-  EXPECT_EQ(with_path({{0, 2e9, 0, 0}}),
-            "first_contact: motion 1: key 0 of its path: position (2e+09, 0) m is not within +-1e9");
+            "first_contact: motion 1: key 0 of its path: expected a time within +-1e6 s, found nan");
+  EXPECT_EQ(
+      with_path({{0, 2e9, 0, 0}}),
+      "first_contact: motion 1: key 0 of its path: expected a position within +-1e9 m, found (2e+09, 0)");
   EXPECT_EQ(with_path({{0, 0, 0, 0, 2e9}}),
-            "first_contact: motion 1: key 0 of its path: z 2e+09 m is not within +-1e9");
+            "first_contact: motion 1: key 0 of its path: expected a z within +-1e9 m, found 2e+09");
   EXPECT_EQ(with_path({{0, 0, 0, nan}}),
-            "first_contact: motion 1: key 0 of its path: heading nan rad is not within +-1e9");
-  EXPECT_EQ(with_path({{0, 0, 0, 0}, {1, 0, 0, 1001}}),
-            "first_contact: motion 1: key 1 of its path turns by more than 1000 rad, to 1001");
-  EXPECT_EQ(said_of(good.motion(), {1, 0}), "first_contact: from 1 s to 0 s is no interval within +-1e6 s");
+            "first_contact: motion 1: key 0 of its path: expected a heading within +-1e9 rad, found nan");
+  EXPECT_EQ(
+      with_path({{0, 0, 0, 0}, {1, 0, 0, 1001}}),
+      "first_contact: motion 1: key 1 of its path: expected a turn of at most 1000 rad, found one to 1001");
+  EXPECT_EQ(said_of(good.motion(), {1, 0}),
+            "first_contact: expected an interval within +-1e6 s, found 1 to 0");
   EXPECT_EQ(said_of(good.motion(), {nan, 0}),
-            "first_contact: from nan s to 0 s is no interval within +-1e6 s");
-  EXPECT_EQ(said_of(good.motion(), {0, 1}, 0), "first_contact: a tolerance of 0 m, not 1e-6 or more");
-  EXPECT_EQ(said_of(good.motion(), {0, 1}, nan), "first_contact: a tolerance of nan m, not 1e-6 or more");
+            "first_contact: expected an interval within +-1e6 s, found nan to 0");
+  EXPECT_EQ(said_of(good.motion(), {0, 1}, 0),
+            "first_contact: expected a tolerance of at least 1e-6 m, found 0");
+  EXPECT_EQ(said_of(good.motion(), {0, 1}, nan),
+            "first_contact: expected a tolerance of at least 1e-6 m, found nan");
   EXPECT_EQ(test::complaint([&] {
               first_contact(std::vector<Motion>{good.motion()}, std::vector<Pair>{{0, 1}}, {0, 1}, times);
             }),
-            "first_contact: pair 0: motion 1 of 1");
+            "first_contact: pair 0: expected one of 1 motions, found 1");
   EXPECT_NE(test::complaint([&] { first_contact({}, {}, {0, 1}, times); }), "accepted");
   EXPECT_EQ(test::complaint([&] {
               free_until(Motion{nullptr, good.path, 0}, std::vector<Motion>{good.motion()}, {0, 1});
             }),
-            "free_until: motion 1: no shape");
+            "free_until: motion 1: expected a shape, found none");
 }
 
 }  // namespace

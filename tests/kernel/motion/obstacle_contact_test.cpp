@@ -148,7 +148,7 @@ TEST(ObstacleContact, IsThatOfBothWithOthersAndRefusesWhatIsNoMotion) {
   EXPECT_EQ(test::complaint([&] {
               first_contact(std::vector<Motion>{{nullptr, comes.path, 0}}, near.set(), {0, 1}, times);
             }),
-            "first_contact: motion 0: no shape");
+            "first_contact: motion 0: expected a shape, found none");
   EXPECT_NE(test::complaint([&] { first_contact({}, near.set(), {0, 1}, times); }), "accepted");
 }
 

@@ -288,7 +288,7 @@ TEST_F(SmallOne, RefusesWhatIsInvalid) {
   EXPECT_EQ(said(one, 15), "nearest_free: expected an even number of directions from 2 to 256, found 15");
   EXPECT_TRUE(test::has(said(nobody, 16), "pair 0"));
   ways.resize(3);
-  EXPECT_EQ(said(one, 16), "nearest_free: 2 agents but 3 answers");
+  EXPECT_EQ(said(one, 16), "nearest_free: expected 2 answers, one per agent, found 3");
 }
 
 }  // namespace

@@ -234,37 +234,44 @@ TEST_F(Obstacles, RejectWhatIsWrong) {
   const std::vector<std::uint64_t> paths = {0, 2}, beyond = {0, 3}, back = {0, 2, 1, 2}, one = {0, 1};
   const std::vector<std::uint8_t> two = {0, 1};
   const auto why = [](const ObstacleArrays& in) { return test::complaint([&] { ObstacleSet{in}; }); };
-  EXPECT_EQ(why({x, {}, paths}), "obstacles: 2 values of x but 0 of y");
-  EXPECT_EQ(why({x, y, {}}), "obstacles: polyline offsets do not lead from 0 to 2 points");
-  EXPECT_EQ(why({x, y, beyond}), "obstacles: polyline offsets do not lead from 0 to 2 points");
-  EXPECT_EQ(why({x, y, back}), "obstacles: polyline offsets: 1 after 2");
-  EXPECT_EQ(why({x, y, paths, paths}), "obstacles: obstacle offsets do not lead from 0 to 1 polylines");
-  EXPECT_EQ(why({x, y, paths, one, two}), "obstacles: 1 obstacles but 2 values of is_area");
+  EXPECT_EQ(why({x, {}, paths}), "obstacles: expected 2 values of y, as many as of x, found 0");
+  EXPECT_EQ(why({x, y, {}}), "obstacles: expected polyline offsets from 0 to the 2 points, found others");
+  EXPECT_EQ(why({x, y, beyond}), "obstacles: expected polyline offsets from 0 to the 2 points, found others");
+  EXPECT_EQ(why({x, y, back}), "obstacles: expected ascending polyline offsets, found 1 after 2");
+  EXPECT_EQ(why({x, y, paths, paths}),
+            "obstacles: expected obstacle offsets from 0 to the 1 polylines, found others");
+  EXPECT_EQ(why({x, y, paths, one, two}),
+            "obstacles: expected 1 values of is_area, one per obstacle, found 2");
   const std::vector<double> high = {2}, low = {1}, none = {std::nan("")};
-  EXPECT_EQ(why({x, y, paths, {}, {}, x}), "obstacles: 1 obstacles but 2 values of bottom");
-  EXPECT_EQ(why({x, y, paths, {}, {}, {}, x}), "obstacles: 1 obstacles but 2 values of top");
-  EXPECT_EQ(why({x, y, paths, {}, {}, high, low}), "obstacles: obstacle 0: heights from 2 to 1 m");
-  EXPECT_EQ(why({x, y, paths, {}, {}, none}), "obstacles: obstacle 0: heights from nan to inf m");
-  EXPECT_EQ(why({x, y, paths, {}, {}, {}, none}), "obstacles: obstacle 0: heights from -inf to nan m");
-  EXPECT_EQ(why({bad, y, paths}), "obstacles: point 1: (nan, 1) m is not within +-1e9");
-  EXPECT_EQ(why({x, far, paths}), "obstacles: point 1: (1, 2e+09) m is not within +-1e9");
+  EXPECT_EQ(why({x, y, paths, {}, {}, x}),
+            "obstacles: expected 1 values of bottom, one per obstacle, found 2");
+  EXPECT_EQ(why({x, y, paths, {}, {}, {}, x}),
+            "obstacles: expected 1 values of top, one per obstacle, found 2");
+  EXPECT_EQ(why({x, y, paths, {}, {}, high, low}),
+            "obstacles: obstacle 0: expected a bottom below the top, found 2 to 1 m");
+  EXPECT_EQ(why({x, y, paths, {}, {}, none}),
+            "obstacles: obstacle 0: expected a bottom below the top, found nan to inf m");
+  EXPECT_EQ(why({x, y, paths, {}, {}, {}, none}),
+            "obstacles: obstacle 0: expected a bottom below the top, found -inf to nan m");
+  EXPECT_EQ(why({bad, y, paths}), "obstacles: point 1: expected a position within +-1e9 m, found (nan, 1)");
+  EXPECT_EQ(why({x, far, paths}), "obstacles: point 1: expected a position within +-1e9 m, found (1, 2e+09)");
   const ObstacleSet wall({x, y, paths});
   EXPECT_THROW(wall.obstacle_of(1), std::out_of_range);
   const Crowd crowd = test::crowd_about(random, set, 2, 3);
   std::vector<std::uint8_t> hits(3, 7);
   EXPECT_EQ(test::complaint([&] { collide(set, crowd.agents(), wall, hits); }),
-            "collide: 2 agents but 3 hits");
+            "collide: expected 2 hits, one per agent, found 3");
   std::vector<float> distance(2);
   EXPECT_EQ(test::complaint([&] { clearance(set, crowd.agents(), wall, {distance}, {.max_distance = -1}); }),
-            "clearance: a max_distance of -1 m");
+            "clearance: expected a max_distance of at least 0 m, found -1");
   const std::vector<double> distances = {1, -1};
   hits.resize(2);
   EXPECT_EQ(test::complaint([&] { within(set, crowd.agents(), wall, distances, hits); }),
-            "within: agent 1: a distance of -1 m");
+            "within: agent 1: expected a distance of at least 0 m, found -1");
   EXPECT_EQ(test::complaint([&] {
               time_of_impact(set, crowd.agents(), {distances, bad}, wall, distance);
             }),
-            "time_of_impact: agent 1: displacement (-1, nan) m is not within +-1e9");
+            "time_of_impact: agent 1: expected a displacement within +-1e9 m, found (-1, nan)");
   EXPECT_EQ(hits, std::vector<std::uint8_t>(2, 7));
 }
 

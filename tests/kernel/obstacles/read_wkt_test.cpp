@@ -117,7 +117,7 @@ TEST(ReadWkt, NamesThePlaceOfAnError) {
   EXPECT_EQ(complaint_about(deep),
             "WKT: line 1, column 1901: expected fewer collections in each other, found 'GEOMETRYCOLLECTION'");
   EXPECT_EQ(test::complaint([] { obstacles_from_wkt("", static_cast<Polygons>(2)); }),
-            "obstacles: no polygons are 2, only solid (0) and walkable (1)");
+            "obstacles: expected polygons of 0 (solid) or 1 (walkable), found 2");
 }
 
 /// Text that is cut anywhere is read or rejected, and so is one with a byte that is another.

@@ -274,32 +274,36 @@ TEST(AnimatedShape, RefusesWhatDoesNotMove) {
   using Body = AnimatedDiscs;
   expect_refused(
       moving(two_chunks()),
-      {{[](Body& b) { b.chunks.clear(); }, "no chunks"},
-       {[](Body& b) { b.chunks[0].times = {1}; }, "chunk 0: fewer than two keys"},
-       {[](Body& b) { b.chunks[0].times[0] = 3; }, "chunk 0: a key at 3 s after one at 3 s"},
+      {{[](Body& b) { b.chunks.clear(); }, "expected at least one chunk, found none"},
+       {[](Body& b) { b.chunks[0].times = {1}; }, "chunk 0: expected at least two keys, found 1"},
+       {[](Body& b) { b.chunks[0].times[0] = 3; }, "chunk 0: expected a key after 3 s, found 3"},
        {[](Body& b) { b.chunks[0].times[1] = HUGE_VAL; },
-        "chunk 0: a key at inf s, which is not within +-1e6"},
+        "chunk 0: expected a key within +-1e6 s, found inf"},
        {[](Body& b) { b.chunks[1].times[0] = 3.5; },
-        "chunk 1: it begins at 3.5 s, where the one before ends at 3 s"},
+        "chunk 1: expected a beginning at 3 s, where the one before ends, found 3.5"},
        {[](Body& b) { b.chunks[0].disc_count = 0, b.chunks[0].keys.clear(); },
-        "chunk 0: 0 discs, not 1 to 4096"},
-       {[](Body& b) { b.chunks[0].keys.pop_back(); }, "chunk 0: 1 discs at 2 keys, not 1 at each"},
-       {[=](Body& b) { b.chunks[0].keys[1].y = nan; }, "chunk 0: disc 0 at key 1, of 2 m at (2, nan) m"},
-       {[](Body& b) { b.chunks[0].keys[0].radius = -1; }, "chunk 0: disc 0 at key 0, of -1 m at (0, 0) m"},
+        "chunk 0: expected 1 to 4096 discs, found 0"},
+       {[](Body& b) { b.chunks[0].keys.pop_back(); }, "chunk 0: expected 1 discs at each of 2 keys, found 1"},
+       {[=](Body& b) { b.chunks[0].keys[1].y = nan; },
+        "chunk 0: disc 0 at key 1: expected a radius of at least 0 m about a finite centre, found 2 about "
+        "(2, nan)"},
+       {[](Body& b) { b.chunks[0].keys[0].radius = -1; },
+        "chunk 0: disc 0 at key 0: expected a radius of at least 0 m about a finite centre, found -1 about "
+        "(0, 0)"},
        {[](Body& b) {
           b.chunks[1].z = {1, 1, 1, 1};
         },
-        "chunk 1: 4 heights, not 0"},
-       {[](Body& b) { b.chunks[0].z = {1}; }, "chunk 0: 1 heights, not 2"},
+        "chunk 1: expected 0 heights, found 4"},
+       {[](Body& b) { b.chunks[0].z = {1}; }, "chunk 0: expected 2 heights, found 1"},
        {[=](Body& b) {
           b.chunks[0].z = {1, nan};
         },
-        "chunk 0: a height of nan m, which is not within +-1e6"},
+        "chunk 0: expected a sphere within +-1e6 m of the ground, found one at nan"},
        {[](Body& b) { b.heights.bottom = 1, b.heights.top = 0; }, "heights from 1 to 0 m"}});
   Body large = moving(two_chunks());
   large.chunks[0].keys[0].radius = 2e6f;
   EXPECT_EQ(test::complaint([&] { AnimatedShape{large}; }),
-            "hierarchy: extent 2e+06 m is outside 1e-6 to 1e6 m");
+            "hierarchy: expected an extent of 1e-6 to 1e6 m, found 2e+06");
 }
 
 TEST(AnimatedShape, RefusesLoopsOfNextToNoTime) {
@@ -309,7 +313,7 @@ TEST(AnimatedShape, RefusesLoopsOfNextToNoTime) {
     discs.loops = loops;
     return test::complaint([&] { validate(discs); });
   };
-  EXPECT_EQ(said(0, 1e-12, true), "animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
+  EXPECT_EQ(said(0, 1e-12, true), "animated shape: expected a loop of at least 0.001 s, found 1e-12");
   EXPECT_EQ(said(0, 1e-300, false), "accepted");
   EXPECT_EQ(said(0, 0.001, true), "accepted");
   EXPECT_NE(said(-1e6, -1e6 + 0.0005, true), "accepted");

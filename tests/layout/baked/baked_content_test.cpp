@@ -49,7 +49,7 @@ std::vector<Crime> crimes() {
     return [=](BakedBytes& b) { b.section<std::int16_t>(Section::disc_steps)[at] = value; };
   };
   return {
-      {"depths 2: 0 does not ascend", word(Section::depths, 2, 0)},
+      {"depths 2: expected more than", word(Section::depths, 2, 0)},
       {"threshold",
        [](BakedBytes& b) { b.section<detail::baked::Settings>(Section::settings)[0].threshold = -1; }},
       {"origins 1: character", origin(1, &ShapeOrigin::character, 4u)},
@@ -60,16 +60,16 @@ std::vector<Crime> crimes() {
       {"clips 1: it is of kind 4", word(Section::clips, 8, 4)},
       {"clips 0: 4 of chunks, which has 3 left", word(Section::clips, 3, 4)},
       {"clips 1: 4294967295 of chunks, which has 1 left", word(Section::clips, 9, ~0u)},
-      {"clips 1: animated shape: no chunks", word(Section::clips, 9, 0)},
+      {"clips 1: animated shape: expected at least one chunk, found none", word(Section::clips, 9, 0)},
       {"clips 0: animated shape: heights from nan", floats(Section::clips, 4, nan)},
       {"chunks 0: 4294967295 of key_times, which has 7 left", word(Section::chunks, 0, ~0u)},
       {"chunks 0: 900 of disc_steps, which has 39 left", word(Section::chunks, 1, 100)},
       {"chunks 2: step 2^-150", word(Section::chunks, 8, static_cast<std::uint32_t>(-150))},
       {"chunks 2: step 2^21", word(Section::chunks, 8, 21)},
       {"chunks 0: 27 of disc_floats, which has 6 left", word(Section::chunks, 2, 0x7fffffff)},
-      {"chunk 0: a key at 0 s after one at 1 s",
+      {"chunk 0: expected a key after 1 s, found 0",
        [](BakedBytes& b) { b.section<double>(Section::key_times)[1] = 0; }},
-      {"of -0.125 m", step(2, -1)},
+      {"found -0.125 about (0, 0)", step(2, -1)},
       {"clips 1: animated shape: chunk 0: disc 0 at key 1", floats(Section::disc_floats, 4, nan)},
       {"body_ends 1: 2 does not ascend", word(Section::body_ends, 2, 2)},
       {"body_ends: they end with 5, and there are 4 body_bytes", word(Section::body_ends, 4, 5)},
@@ -317,8 +317,8 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
   with([&] { header.byte_order = detail::baked::other_byte_order; }, "byte order");
   with([&] { header.byte_order = 7; }, "byte order");
   with([&] { header.file_size = ~std::uint64_t{0}; }, "18446744073709551615 bytes");
-  with([&] { header.section_count = 19; }, "19 sections");
-  with([&] { header.zero[6] = 1; }, "where there has to be 0");
+  with([&] { header.section_count = 19; }, "sections, found 19");
+  with([&] { header.zero[6] = 1; }, "expected 0, found");
 }
 
 TEST_F(SpoiledFile, SizesThatOverflow) {
@@ -417,7 +417,7 @@ TEST_F(SpoiledFile, SizesBeyondAllMemory) {
       return complaint<BakedFileError>([&] { load_baked(file, access); });
     };
     EXPECT_EQ(error(text), text.string() + ": not a baked file: it begins differently");
-    EXPECT_NE(error(longer).find("bytes and has 4398046511104"), std::string::npos) << error(longer);
+    EXPECT_NE(error(longer).find("bytes, found 4398046511104"), std::string::npos) << error(longer);
   }
   EXPECT_THROW(load_baked(honest), std::bad_alloc);
 }

@@ -87,7 +87,7 @@ TEST(BakedFile, ImageRefusesWhatNobodyCouldLoad) {
   EXPECT_EQ(refusal([](BakedClip& clip) { clip.character = 4; }), "clips 1: character has name 4");
   EXPECT_EQ(refusal([](BakedClip& clip) { clip.clip = 4; }), "clips 1: clip has name 4");
   EXPECT_EQ(refusal([](BakedClip& clip) { clip.discs.chunks[0].times[1] = 0; }),
-            "clips 1: animated shape: chunk 0: a key at 0 s after one at 0 s");
+            "clips 1: animated shape: chunk 0: expected a key after 0 s, found 0");
 }
 
 TEST(BakedFile, FilesThatAreNone) {
@@ -154,7 +154,7 @@ TEST(BakedFile, HasNoLoopsOfNextToNoTime) {
   EXPECT_EQ(bytes.load().clips[0].discs.chunks[0], chunk);
   bytes.section<detail::baked::ClipRecord>(Section::clips)[0].kind = detail::baked::clip_loops;
   bytes.seal();
-  EXPECT_EQ(bytes.error(), "file: clips 0: animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
+  EXPECT_EQ(bytes.error(), "file: clips 0: animated shape: expected a loop of at least 0.001 s, found 1e-12");
 }
 
 TEST(SaveBaked, WritesTheBytesOfTheSetInPlaceOfAnotherFile) {
