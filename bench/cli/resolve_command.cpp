@@ -107,8 +107,8 @@ Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv
       number_between(0, 1000));
   add("--largest-shift", how.largest_shift, "METRES",
       "Maximum shift of a person in all sweeps together [no limit]", number_between(0, 1e9));
-  add("--largest-turn", how.largest_turn, "RADIANS",
-      "Maximum turn of a person in all sweeps together [0: nobody turns]", number_between(0, 3.2));
+  add("--largest-turn", how.largest_turn, "RADIANS", "Maximum turn of a person in all sweeps together [0]",
+      number_between(0, 3.2));
   add_max_pairs_option(command, options->max_pairs, "agents near each other", "agent");
   add_spheres_option(command, options->spheres);
   options->shapes.add_poses_to(command);

@@ -178,7 +178,8 @@ TEST(BodyImpact, BadInputIsNamed) {
   };
   EXPECT_EQ(refused({one, one, high}),
             "time_of_impact: pair 0: expected a displacement in z within +-1e9 m, found 2e+09");
-  EXPECT_TRUE(test::has(refused({one, one, nan}), "pair 0: displacement in z of "));
+  EXPECT_EQ(refused({one, one, nan}),
+            "time_of_impact: pair 0: expected a displacement in z within +-1e9 m, found nan");
   EXPECT_TRUE(test::has(refused({one, one, two}), "displacements in z"));
   EXPECT_TRUE(test::has(refused({one, nan}), "pair 0"));
   EXPECT_TRUE(test::has(refused({two, one}), "displacements in x"));

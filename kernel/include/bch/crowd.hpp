@@ -265,10 +265,10 @@ class Crowd {
                                 const Implementation* implementation = nullptr) &;
 
   /// Moves agents on the ground until no two bodies collide and nobody touches a wall.
-  /// It keeps displacements small, and turns agents up to largest_turn. Each sweep moves all agents at once. If there is too
-  /// little room, some pairs still collide after the last sweep. With a period, agents meet across its
-  /// borders, and the positions returned may lie outside the period. See "A crowd without overlaps" in
-  /// kernel/README.md.
+  /// It keeps displacements small, and turns agents up to largest_turn. Each sweep moves all agents at once.
+  /// If there is too little room, some pairs still collide after the last sweep. With a period, agents meet
+  /// across its borders, and the positions returned may lie outside the period.
+  /// See:     "A crowd without overlaps" in kernel/README.md.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths, turns and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

@@ -33,7 +33,8 @@ def draw(ax, agents, pairs, title):
 
 n = 500
 figure, (before, after) = plt.subplots(1, 2, figsize=(12, 6.6), layout="constrained")
-cases = [(3, 0.45, 0), (3, 0.45, 0.35), (3, 0.35, 0), (3, 0.35, 0.35), (3, 0, 0), (3, 0, 0.35), (4, 0.4, 0), (4, 0.4, 0.35), (4, 0.4, 1.6)]
+cases = [(3, least, turn) for least in (0.45, 0.35, 0) for turn in (0, 0.35)]
+cases += [(4, 0.4, turn) for turn in (0, 0.35, 1.6)] + [(5, 0.35, turn) for turn in (0, 1.6)]
 print("people/m2  apart   turn   pairs  left  sweeps  shift")
 for density, least, turn in cases:
     random = np.random.default_rng(57)

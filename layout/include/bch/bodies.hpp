@@ -131,8 +131,8 @@ class BodyPoser {
   /// Returns the spheres of a pose: a time of a clip, joint transforms or bone matrices.
   /// They enclose every triangle of pose_vertices(), in the same frame. The result is valid until the next
   /// call.
-  /// Errors:  as ShapeBuilder::shape(); throws std::invalid_argument for PosedVertices, which do not say where
-  ///          bones are, and std::domain_error if the extent is outside 1e-6 to 1e6 m.
+  /// Errors:  as ShapeBuilder::shape(); throws std::invalid_argument for PosedVertices, which do not say
+  ///          where bones are, and std::domain_error if the extent is outside 1e-6 to 1e6 m.
   std::span<const Sphere> spheres(const Pose& pose);
 
  private:

@@ -156,7 +156,8 @@ std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 /// Ours are x forwards, y left, z up, metres, and headings in radians, counter-clockwise.
 ///
 ///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
-///     shape_builder.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
+///     const Transforms posed = Transforms::column_major(matrices, joints);
+///     builder.shape(WorldPose{AxisSystem::unity.transforms(posed)});
 struct AxisSystem {
   double rows[3][3];   ///< rotation or reflection from the program's axes to ours
   double metres = 1;   ///< metres per unit of the program's lengths

@@ -25,9 +25,9 @@
  * Arrays:   belong to the caller, are packed, and are read during the call only. An empty one may be NULL.
  * Units:    metres and radians, counter-clockwise. A heading of 0 does not turn a shape, and the built-in
  *           characters then face +x.
- * Threads:  functions may be called from any thread. While a function that takes an object without const runs,
- *           no other thread may use that object. Any number of threads may query a set or obstacles at the same
- *           time.
+ * Threads:  functions may be called from any thread. While a function that takes an object without const
+ *           runs, no other thread may use that object. Any number of threads may query a set or obstacles at
+ *           the same time.
  * Memory:   a failed allocation gives BCH_NO_MEMORY. Queries of pairs allocate nothing, except clearances and
  *           times of impact of agents at different heights. No function throws, ends the program or prints.
  */
@@ -1063,8 +1063,8 @@ BCH_API bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint3
 /** Frees obstacles. */
 BCH_API bch_status bch_obstacles_free(bch_obstacles* obstacles);
 
-/* Each of the next functions answers, for each agent and the obstacles, what the query of the same name answers
- * for each pair of agents. */
+/* Each of the next functions answers, for each agent and the obstacles, what the query of the same name
+ * answers for each pair of agents. */
 
 /** Tests whether each agent collides with an obstacle, and writes 1 or 0 to `hits`. */
 BCH_API bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* agents,
