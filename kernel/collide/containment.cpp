@@ -33,23 +33,29 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
-/// Bounds what one_may_be_inside() rounds, in units of both shapes' extents, in the terms of layout/base/rounding.hpp. The
-/// outer disc holds its contour whatever is rounded. The inner disc's centre c is rounded to float, by u |c|, which makes d
-/// and r larger by as much, and r is rounded up. The headings are off by 3e-10 each, and so is the position of what is at
-/// most 3 S away. With |c|^2 + r^2 <= P^2,
+/// Bounds the rounding of one_may_be_inside(), in units of both shapes' extents, with the notation of
+/// layout/base/rounding.hpp. The outer disc, as stored, contains its contour. Let c and r be the centre and radius of
+/// the inner disc, d the distance of both centres. Three things are rounded:
+///
+///   - c is rounded to float, by u |c|. That makes d and r larger by as much.
+///   - r is rounded up.
+///   - The headings are off by 3e-10 each. They place points that are at most 3 S away.
+///
+/// With |c|^2 + r^2 <= P^2,
 ///
 /// (1)  sqrt(d^2 + r^2) is too large by at most  sqrt(2) u |c| + 2 u r <= 2.45 u P  (centre_and_radius)
 /// (2)  placing adds at most                     0.04 u S                           (placing)
 ///
-/// The contour inside has the smaller disc after rounding, too. Let v be a vertex on the boundary of the inner disc that is
-/// at least that disc's radius r away from the outer disc's centre. The ray from there through v leaves the outer contour at
-/// most the outer radius R away. The cuts do not overlap, so v and that point are apart:
+/// The contour inside has the smaller disc also after rounding. Let v be a vertex on the boundary of the inner disc
+/// that is at least r away from the outer disc's centre. The ray from that centre through v leaves the outer contour
+/// at a distance of at most the outer radius R. So v and the point where the ray leaves are at most R - r apart. But
+/// the cuts do not overlap, so the two points are at least as far apart as the right sides of (3) and (4):
 ///
 /// (3)  discs decide:     R - r >= ((query_margin) - (1' of rounding.hpp)) S, in which (halving) is of the outer shape
 ///                        alone, because v is a vertex as given                     (between_cuts)
 /// (4)  segments decide:  R - r >= ((segment_margin) - (segment_place)) S           (between_segments)
 ///
-/// Either is more than (1) of the inner extent. (So no unit test notices a slack of 0.)
+/// Both bounds are more than (1) of the inner extent. (So no unit test notices a slack of 0.)
 constexpr double inside_slack = 1e-6;
 constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
 constexpr double between_cuts =
@@ -61,9 +67,10 @@ static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_rou
 static_assert(between_cuts >= rounding::terms::halving && between_cuts > centre_and_radius);
 static_assert(between_segments > centre_and_radius);
 
-/// Returns whether the enclosing discs allow that one contour is inside the other. Then the inner one has the smaller disc,
-/// and the points that determine this disc lie in no open half of it, so one of them is at least sqrt(d^2 + r^2) away from
-/// the outer disc's centre: d^2 + r^2 <= R^2. `b_centre` is the centre of b in a's frame.
+/// Returns whether the enclosing discs allow that one contour is inside the other: d^2 + r^2 <= R^2. The contour
+/// inside has the smaller disc. The points that determine this disc lie in no open half of it. So one of them is in
+/// the half that faces away from the outer disc's centre, and is at least sqrt(d^2 + r^2) away from that centre.
+/// `b_centre` is the centre of b in a's frame.
 bool one_may_be_inside(const Disc& a, const Disc& b, Point b_centre, double slack) {
   const double x = b_centre.x - static_cast<double>(a.x), y = b_centre.y - static_cast<double>(a.y);
   const double r = std::min(a.radius, b.radius), limit = double{std::max(a.radius, b.radius)} + slack;

@@ -86,10 +86,10 @@ class OverlapTraversal {
     std::uint64_t unvisited;
   };
 
-  /// Tests every undecided pair, then steps every pair: in two loops, because out-of-order execution overlaps iterations of
-  /// either, but hardly those of one fused loop. All in one function, because a round over one pair is so short that calls
-  /// matter. `noipa`, because GCC 12's interprocedural passes otherwise judge this function to have no effects, and drop
-  /// its calls.
+  /// Tests every undecided pair, then steps every pair. These are two loops, because out-of-order execution overlaps
+  /// the iterations of each loop, but would hardly overlap those of one fused loop. Everything is in one function,
+  /// because a round over one pair is so short that calls matter. `noipa`, because GCC 12's interprocedural passes
+  /// otherwise judge this function to have no effects, and drop its calls.
   [[gnu::noipa]] void rounds(std::uint32_t stop_below) noexcept {
     while (size_ > stop_below) {
       const std::uint32_t tests = size_;
@@ -125,7 +125,8 @@ class OverlapTraversal {
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Returns 1 if both blocks are leaf blocks, whose indices have the top bit, leaf_bit, else 0.
+  /// Returns 1 if both nodes are leaf blocks, else 0. A leaf block is a leaf: eight discs of the cut. Its name is the
+  /// position of its first disc in ShapeSetView::nodes, with the top bit, leaf_bit, set.
   [[gnu::always_inline]] static std::uint32_t both_are_leaf_blocks(const Traversal& at) noexcept {
     return (at.a & at.b) / leaf_bit;
   }

@@ -43,7 +43,8 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  /// Traversals at one time: those of a packet, and as many undecided pairs of earlier packets as fit on the stack.
+  /// The most traversals at one time: one for each pair of a packet, and as many for undecided pairs of earlier packets
+  /// as fit on the stack.
   static constexpr std::uint32_t max_traversals = packet_size + packet_size * 7 / 8;
   using List = PacketPairs<Simd, packet_size>;
 
@@ -55,7 +56,7 @@ class PairKernel {
         profiles_(shapes_, transforms_, arguments),
         traversal_(shapes_, arguments) {}
 
-  /// Answers the packet's pairs, but for those that are left to traversals.
+  /// Answers the packet's pairs, except those that it adds to traversal_.
   [[gnu::always_inline]] void answer_packet(std::size_t begin) noexcept {
     states_ = in_.states + begin;
     undecided_.size = likely_.size = 0;
@@ -115,8 +116,8 @@ class PairKernel {
       std::uint32_t undecided = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
         const std::uint32_t decided = both_are_single(k + lane);
-        // Leaf discs within the distance may stick out of the roots, so only pairs of single discs are
-        // rejected here.
+        // within() rejects only pairs of single discs here, because leaf discs within its distance may
+        // stick out of the roots. collide() rejects every pair whose roots are apart.
         const std::uint32_t hit = (overlaps >> lane & 1) | (KnowsGaps<Simd> & (decided ^ 1));
         states_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         undecided |= (hit & (decided ^ 1)) << lane;
@@ -176,8 +177,8 @@ class PairKernel {
     end_stage<Simd>(stage, tests);
   }
 
-  /// Accepts each listed pair of which one of A's first `count` inscribed discs overlaps one of B's; moves the others to
-  /// undecided_.
+  /// Accepts each listed pair if one of A's first `count` inscribed discs overlaps one of B's first `count`. Moves the
+  /// other pairs to undecided_.
   template <unsigned count>
   void accept(List& list, Stage stage) noexcept {
     const std::uint32_t tests = list.size;

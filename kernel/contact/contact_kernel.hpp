@@ -26,16 +26,17 @@ namespace bch::detail {
 /// of its ancestors. With exact leaves, segments of the two discs also touch. Handles one pair of agents
 /// after the other.
 ///
-/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. A leaf block is a leaf
-/// of a flat tree: eight consecutive discs; the nodes above are blocks (layout/format/shape_set_view.hpp).
-/// Row leaf blocks are visited from left to right, each with the column nodes that overlap the blocks above it.
-/// So contacts are found in order, except among the eight rows of a leaf block; those are counted first and then
-/// written to their positions.
+/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. A cut is stored as a flat
+/// tree (layout/format/shape_set_view.hpp): its leaves are leaf blocks, each of eight consecutive discs, and the nodes
+/// above are blocks. Row leaf blocks are visited from left to right. Each row leaf block is compared with those column nodes
+/// that overlap the blocks above the row leaf block. So contacts are found in order, except among the eight rows of a
+/// leaf block; those are counted first and then written to their positions.
 ///
-/// Uniqueness. Leaf blocks may share discs with their neighbours, but no contact is reported twice. A row is
-/// tested in the last leaf block that contains it: each row leaf block is used only up to the first row of the next
-/// leaf block. The last leaf block begins earlier than the others would let it, so that it has eight discs; its rows
-/// are tested together at the end. A column is tested in the first visited leaf block that contains it.
+/// Uniqueness. Leaf blocks may share discs with their neighbours, but no contact is reported twice. A row is tested in the
+/// last leaf block that contains it: each row leaf block but the last is used only up to the first row of the next leaf block. The
+/// last leaf block is used whole. It, too, has eight discs, so it may begin before the end of the leaf block to its left; the
+/// rows that both contain are tested in the last leaf block. A column is tested in the first visited leaf block that contains
+/// it.
 ///
 /// Pruning and verification of hits are those of the kernel of collide().
 template <class Simd>
@@ -53,8 +54,8 @@ class ContactKernel {
     });
   }
 
-  /// Writes the contacts of pairs from offsets[begin] on, and the end of each pair's contacts, as far as
-  /// there is room.
+  /// Writes the contacts of pairs from offsets[begin] on, and the end of each pair's contacts. It stops before the
+  /// first pair that has more pairs of discs than there is room for contacts.
   /// Returns: one past the last pair that was answered.
   static std::size_t append(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* offsets,
                             DiscPair* contacts, std::uint64_t capacity) noexcept {
@@ -114,7 +115,8 @@ class ContactKernel {
                 max_extent_b = shapes_.max_extent[transforms_.shape_b[k]];
     max_extent_ = max_extent_a + max_extent_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    // Nodes enclose their discs with a margin that suffices for extents up to this sum: rounding.hpp, VIII.
+    // The margin with which nodes enclose their discs suffices if the sum of both extents is at most conservative_ratio times
+    // the lesser one: rounding.hpp, VIII.
     is_conservative_ = (rows_.conservative_nodes & columns_.conservative_nodes) != 0 &&
                        max_extent_ <= float{rounding::conservative_ratio} *
                                           (max_extent_a < max_extent_b ? max_extent_a : max_extent_b);
@@ -280,8 +282,9 @@ class ContactKernel {
     return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
-  /// Returns the hits of two leaf blocks that their ancestors confirm. Single discs have no ancestors, and
-  /// conservative nodes overlap wherever discs below them do.
+  /// Returns those hits of two leaf blocks whose ancestors all overlap and, with exact leaves, whose segments meet. Ancestors
+  /// need no test in two cases: single discs have none, and conservative nodes (is_conservative_) overlap wherever discs
+  /// below them do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
     if (is_conservative_ && placed_.margin == 0) return hits;

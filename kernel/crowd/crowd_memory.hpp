@@ -61,6 +61,7 @@ struct CrowdMemory {
   Candidates find(const ShapeSet& shapes, const Agents& agents, double within, const PairFilter& filter) {
     return find(shapes.view(), agents, within, filter);
   }
+  /// Returns a candidate with each image replaced by the agent of which it is the periodic image.
   Pair named(Pair candidate) const noexcept {
     return {test.origin(candidate.first), test.origin(candidate.second)};
   }
@@ -104,7 +105,8 @@ struct CrowdMemory {
     contact_offsets.push_back(rows.values.size());
     return {kept_pairs(), {contact_offsets, rows.values}};
   }
-  /// Calls run_query() to write the distances of the candidates and `others`, and keeps those of finite distance.
+  /// Calls run_query(), which writes the distances of the candidates, and further values of them (`others`). Then
+  /// keeps the candidates of finite distance, with these values.
   template <class RunQuery, class... Value>
   Crowd::Pairs keep_near(std::span<const Pair> candidates, const RunQuery& run_query,
                          AnswersOfPairs<Value>&... others) {

@@ -75,7 +75,9 @@ class ClearanceKernel {
     search_.clear();
   }
 
-  /// Ends a search if only few segments may be nearer than those of the first leaves: measures these.
+  /// Ends a search early, where possible, and measures the few segments that remain. After the first leaves,
+  /// FacingSegments (facing_segments.hpp) finds the segments of the outlines' facing sides that may be nearer than
+  /// those measured. The search ends if FacingSegments takes both shapes (it refuses large ones) and finds few.
   void measure_facing(std::uint32_t k) noexcept {
     Measure& measure = search_.measure(k);
     const auto [distance, are_discs, a, b] = measure.nearest();
@@ -89,6 +91,7 @@ class ClearanceKernel {
 
   NearestFeatures answer(std::uint32_t pair, const Measure& measure) const noexcept {
     const auto [distance, are_discs, a, b] = measure.nearest();
+    // Of segments, only the first four members are used: see NearestFeatures (clearance_arguments.hpp).
     if (!are_discs) return {distance, a != no_node, a, b, 0, 0, 1, 0};
     const auto disc = [this](std::uint32_t place, std::uint32_t root) {
       const std::size_t stride = shapes_.trees[root].stride;
@@ -100,8 +103,8 @@ class ClearanceKernel {
     return {distance, false, a, b, x, y, cosine, sine};
   }
 
-  /// Returns the ClearanceMeasure of a pair: what computes its gaps and keeps the least one. It is for the
-  /// next search of the kernel.
+  /// Returns the ClearanceMeasure of a pair: what computes its gaps and keeps the least one. The pair has to be the
+  /// next one that is added to search_, because the measure is bound to the slot search_.size().
   Measure measure(std::uint32_t pair) noexcept {
     Measure measure(arguments_.limit, arguments_.stop_below, max_extent(pair));
     const Tree &a = shapes_.trees[transforms_.root_a[pair]], &b = shapes_.trees[transforms_.root_b[pair]];

@@ -17,28 +17,28 @@ namespace bch::detail {
 ///
 ///     v = sqrt(x^2 + y^2) * gap_factor - (r_A + r_B)            gap_factor = 1 - 2^-20
 ///
-/// with (x, y) and the notation of layout/base/rounding.hpp. D is the distance of the exact centres, so |d|
-/// <= D + S.
+/// (x, y) leads from A's centre to B's, in A's frame. u, S (the sum of both extents), P_B (the extent of B) and d
+/// (the position of B relative to A) are those of layout/base/rounding.hpp. D is the distance of the exact
+/// centres, so |d| <= D + S.
 ///
-/// Never too large. Errors of v, at most:
+/// v is never too large. Its errors are at most:
 ///
-///     (1) sqrt(x^2 + y^2): 8.1 u P_B + 5.6 u |d| (placement, and the sum p) + 3 u D (the difference; the
-///         squares and their sum; the root)                                                 = 13.7 u S + 8.6
-///         u D
-///     (2) the product u D, the sum of radii u S, the last difference u D or u S
-///     (3) in total                                                                 = 15.7 u S + 10.6 u D
+///     (1) sqrt(x^2 + y^2): 8.1 u P_B + 5.6 u |d| for B's placement and the sum p, and 3 u D for the
+///         difference, the squares with their sum, and the root. Together 13.7 u S + 8.6 u D
+///     (2) the product: u D; the sum of radii: u S; the last difference: u D or u S
+///     (3) in total 15.7 u S + 10.6 u D
 ///
-/// Stored radii include 16.5 u S (contact_error), and gap_factor subtracts 16 u D.
+/// Stored radii include 16.5 u S (contact_error), and gap_factor subtracts 16 u D. Both exceed (3).
 ///
-/// Bounds of nodes are never larger than gaps of discs in them. A disc (C, R) that contains a disc (c, r) of
-/// the cut has D' - R <= D - r, where D' <= D + 2 S is the distance of the nodes' centres. The bound v' has
-/// bound_factor = 1 - 2^-18 instead of gap_factor.
+/// Bounds of nodes are never larger than gaps of discs in them. Let a node's disc (C, R) contain a disc (c, r)
+/// of the cut, and D' be the distance of the nodes' centres. Then D' <= D + 2 S, and D' - (R_A + R_B) <= D -
+/// (r_A + r_B). The bound v' is v of the nodes, with bound_factor = 1 - 2^-18 instead of gap_factor.
 ///
-///     (4) v' exceeds D' - (R_A + R_B) by at most 17.7 u S + 7.6 u D (distance) + 9 u S + 4 u D (operations
-///         after it; R_A + R_B <= D' + S, or else v' is below every v) + 3 u S + u D (slack, added to the sum
-///         of radii)
+///     (4) v' exceeds D' - (R_A + R_B) by at most 17.7 u S + 7.6 u D for the distance, 9 u S + 4 u D for the
+///         operations after it, and 3 u S + u D for the slack, which is added to the sum of radii. (This
+///         assumes R_A + R_B <= D' + S. If not, v' is below every v.)
 ///     (5) v is smaller than D - (r_A + r_B) by at most 15.7 u S + 26.6 u D
-///     (6) in total                                                                 = 45.4 u S + 39.2 u D
+///     (6) in total 45.4 u S + 39.2 u D
 ///
 /// For these, `slack` subtracts 64 u S, and bound_factor 64 u D. So v' <= v, and pruning of bounds above the
 /// best gap never loses a tie. The root of v' is approximate_sqrt(), reduced by more than its error.

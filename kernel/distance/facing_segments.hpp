@@ -11,15 +11,17 @@
 
 namespace bch::detail {
 
-/// Finds the segments of two outlines that may be within a distance of each other, by their places along a
-/// direction n from A to B: of outlines that face each other, few are left.
+/// Finds the segments of two outlines that may be within a distance of each other. The *place* of a point is
+/// its coordinate along a direction n from A to B. If outlines face each other, few segments have places that
+/// are near enough.
 ///
-///     (1) segments p of A and q of B are at least min q.n - max p.n apart, over their ends, if |n| <= 1
-///     (2) in float, with n rounded to a length of at most 1 + 4 u, this is too large by at most 30 u S + 14 u D:
-///         4 u S + 5 u |d| for the turned direction and the translation, 4 u S each for a place, 2 u (D + 2 S)
-///         for the difference, 4 u D for the length
+///     (1) Let |n| <= 1. A segment p of A and a segment q of B are at least (least place of q's ends) -
+///         (largest place of p's ends) apart.
+///     (2) In float, with n rounded to a length of at most 1 + 4 u, this difference is too large by at most
+///         30 u S + 14 u D. The parts: 4 u S + 5 u |d| for the rotated direction and the translation; 4 u S
+///         for each of the two places; 2 u (D + 2 S) for the difference; 4 u D for the length of n.
 ///
-/// which max_distance() of SegmentGaps covers. S and D are explained there.
+/// max_distance() of SegmentGaps covers this error. SegmentGaps explains S and D.
 template <class Simd>
 class FacingSegments {
  public:

@@ -14,8 +14,8 @@
 
 namespace bch::detail {
 
-/// Returns the number of the leaf of tree `root` that contains the segment beginning at `point`. Of several
-/// leaves, the one whose disc is nearest to (x, y); of equally near ones, the first.
+/// Returns the number of the leaf of tree `root` that contains the segment whose first point has the index `point`. Of
+/// several such leaves, it is the one whose disc is nearest to (x, y), and of equally near ones the first.
 std::uint32_t leaf_containing(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y);
 
@@ -31,12 +31,12 @@ class PlacedFeatures {
   const NearestFeatures& nearest() const noexcept { return nearest_; }
 
   /// Returns the numbers of the nearest discs, each counted in its agent's cut: the discs of its tree at the
-  /// agent's level. For segments, returns the numbers of the leaves that contain them, by leaf_containing()
-  /// of points().
+  /// agent's level. For segments, returns the numbers of the leaves that contain them. If several leaves contain a
+  /// segment, leaf_containing() chooses the one nearest to the segment's point in points().
   DiscPair numbers() const;
 
-  /// Returns sign (1 or -1) times the unit vector from the first feature to the second; (sign, 0) if centres
-  /// of discs coincide.
+  /// Returns sign (1 or -1) times the unit vector from the first feature to the second. Returns (sign, 0) if the
+  /// features are discs with the same centre.
   Vec2 direction(double sign) const;
 
   /// Returns the nearest points of the two features.

@@ -21,32 +21,34 @@ namespace bch::detail {
 /// s is the least distance of an end from the other segment, and m the margin of exact leaves. Pairs of
 /// agents for which collide() returns 1 have a distance of 0 and are not measured, so no two segments cross.
 ///
-/// Let D be the distance of the outlines, so |d| <= D + S.
+/// Let D be the distance of the outlines, S the sum of both extents, d and u those of layout/base/rounding.hpp.
+/// Then |d| <= D + S.
 ///
-///     (1) errors of the placed ends: (turn) u |b| + (position) u |d| <= 8.9 u S + 4.6 u D, and the grids
-///     (2) w is never too large: m covers 8.9 u S and the grids; gap_factor covers 8 u D >= 4.6 u D + u D
-///         (rounding)
-///     (3) w is too small by at most m + 8.9 u S + the grids + (4.6 + 8 + 1) u D: (segment_price), and 0.9 um
-///         per metre of D
+///     (1) The placed ends are off by (turn) u |b| + (position) u |d| <= 8.9 u S + 4.6 u D, and by the grids.
+///     (2) w is never too large: m covers 8.9 u S and the grids. gap_factor subtracts 8 u D, which covers
+///         4.6 u D and u D for the rounding.
+///     (3) w is too small by at most m + 8.9 u S + the grids + (4.6 + 8 + 1) u D. That is (segment_price), and
+///         0.9 um per metre of D.
 ///
 /// Which leaves are examined:
 ///
 ///     (4) The nearest points of two outlines lie in two leaves whose discs have a gap of at most D (see
-///         ClearanceMeasure), so of at most w + 2 m + 14 u D: max_gap().
-///     (5) Two leaves at a distance D' of their centres have w <= sqrt(D'^2 + r_A^2 + r_B^2): every half of a
-///         smallest enclosing disc has a point of its content on its circle, which is at most sqrt(D'^2 +
-///         r^2) away from a point at distance D'.
+///         ClearanceMeasure). With (3), that is at most w + 2 m + 14 u D: max_gap().
+///     (5) Two leaves whose centres are D' apart have w <= sqrt(D'^2 + r_A^2 + r_B^2). Reason: every half of a
+///         smallest enclosing disc has a point of its content on its circle. In the half that faces a point
+///         at distance D' from the centre, it is at most sqrt(D'^2 + r^2) away from that point.
 ///
 /// So the search compares discs alone, and stores the leaves that may contain the nearest segments. finish()
 /// measures these, after the first leaves of all searches and at the end.
 ///
-/// Which pairs of segments are measured in double. Their distances f are first computed in float, for all
-/// pairs of one search with one placement:
+/// Which pairs of segments are measured in double. The distance s of each pair is first computed in float, as
+/// f, for all pairs of one search with one placement:
 ///
-///     (6) |f - s| <= 30 u S + 14 u D: 6 u S + 2 u D for B's ends placed in float, 12 u (D + 2 S) for the
-///         steps to the nearest point
-///     (7) the least w is at most f * longer + slack (64 u S) for every pair, and at most the best so far
-///     (8) a pair can reach that bound only if its f is at most (bound + m + slack) * longer
+///     (6) |f - s| <= 30 u S + 14 u D: 6 u S + 2 u D for B's ends placed in float, and 12 u (D + 2 S) for the
+///         steps to the nearest point.
+///     (7) The least w of all pairs is at most f * longer + slack (64 u S) of every pair. It is also at most
+///         the least w found so far. The lesser of these is the bound.
+///     (8) A pair can reach that bound only if its f is at most (bound + m + slack) * longer.
 ///
 /// About one pair in four remains.
 ///

@@ -68,6 +68,8 @@ class TimeOfImpactKernel {
     }
   }
 
+  /// Rejects pairs that supports along one of A's directions keep apart on the whole way: the even directions first
+  /// (`odd` = 0), then the odd ones (`odd` = 1).
   void reject_by_supports() noexcept {
     if (!shapes_.rows_follow_roots) {
       for (std::uint32_t k = 0; k < transforms_.size; ++k)
@@ -87,20 +89,21 @@ class TimeOfImpactKernel {
 
   /// Returns the slack of supports during the displacement v, beyond the margin that layout/base/rounding.hpp
   /// includes in supports. As there, S is the sum of both extents, t the position of B in A's frame, D the
-  /// distance of two centres, and u = 2^-24:
+  /// distance of two centres, and u = 2^-24. The slack has four parts:
   ///
   ///     (1) discs may protrude from the outlines that supports belong to: `excess`
-  ///     (2) discs touch by TimeOfImpactMeasure up to 16 u D farther apart than by collide()'s test, and D <=
-  ///         S + |t|
-  ///     (3) the displacement's product with a direction is off by 3 u |v|, the differences by 2 u (|t| +
-  ///         |v|)
-  ///     (4) supports allow for |t| <= 2 S alone, but |t| may be 2 S + |v|. With (2) and (3): 30 u S + 18 u
-  ///         |t| + 11 u |v|
+  ///     (2) TimeOfImpactMeasure lets discs touch up to 16 u D farther apart than collide()'s test does;
+  ///         with D <= S + |t| that is 16 u S + 16 u |t|
+  ///     (3) the product of v and a direction is off by 3 u |v|, the differences by 2 u (|t| + |v|)
+  ///     (4) where discs touch on the way, |t| may be 2 S + |v|, but rounding.hpp has |t| <= 2 S. Its errors
+  ///         in t are 10.6 u |t| in supports, (position) and the product, and 5.6 u |t| in discs, (position)
+  ///         and (sum). So the additional |v| costs 16.2 u |v|
   ///
+  /// (2) to (4) together are 16 u S + 18 u |t| + 22 u |v|. relative_error = 64 u exceeds these three factors.
   /// Only the proof needs (2) to (4): supports have more margin than tests have found necessary.
   float slack(std::uint32_t pair) const noexcept {
     constexpr float relative_error = 0x1p-18f;
-    static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "the largest of the three");
+    static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "above the factors of (2) to (4)");
     const float excess = shapes_.profiles[transforms_.shape_a[pair]].excess +
                          shapes_.profiles[transforms_.shape_b[pair]].excess;
     return excess + relative_error * (max_extent(pair) + __builtin_fabsf(transforms_.tx[pair]) +
@@ -112,9 +115,9 @@ class TimeOfImpactKernel {
     return shapes_.max_extent[transforms_.shape_a[pair]] + shapes_.max_extent[transforms_.shape_b[pair]];
   }
 
-  /// Returns an upper bound of the distance between centres of discs of the two shapes. A centre may be that
-  /// of a box around other discs, which is at most sqrt(2) times the shape's extent from the origin. The
-  /// factor 2 is more than that.
+  /// Returns an upper bound of the distance between centres of discs of the two shapes. A centre may be the centre of
+  /// a box around other discs. Its distance from the shape's origin is then at most sqrt(2) times the shape's extent;
+  /// the factor 2 is more than that.
   float farthest(std::uint32_t pair) const noexcept {
     return 2 * max_extent(pair) + __builtin_fabsf(transforms_.tx[pair]) +
            __builtin_fabsf(transforms_.ty[pair]);
@@ -135,7 +138,7 @@ class TimeOfImpactKernel {
   alignas(64) float x_[packet_size], y_[packet_size];  ///< the packet's displacements
   RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
-  std::uint32_t row_a_[packet_size], row_b_[packet_size];  ///< rows of the supports, if they are not in order
+  std::uint32_t row_a_[packet_size], row_b_[packet_size];  ///< rows of supports; unused if rows_follow_roots
   PacketPairs<Simd, packet_size> open_;
   TimeOfImpactTraversal<Simd> traversal_;
 };

@@ -51,42 +51,46 @@ static_assert(slack >= bound_extent + bound_distance + displacement_error);
 /// rounded by up to 3 u; so agents that collide have time 0 by their discs, too. (D <= r in double would miss
 /// some.)
 ///
-/// Never too late, in the notation of layout/base/rounding.hpp. At the true time t of the exact discs, the
-/// exact distance of their centres is r_tight. Errors, with t |v| <= D + r_A + r_B and |d| <= |a| + |b| + D:
+/// Never too late, with the notation of layout/base/rounding.hpp. At the true time t of the exact discs, the
+/// exact distance of their centres is the sum of the tight radii. t |v| <= D + r_A + r_B, and |d| <= |a| + |b| +
+/// D. The errors at time t:
 ///
-///     (1) (x, y): 8.1 u |b| + 5.6 u |d| + u D;   t v, rotated as d is: 4.6 u t |v|;   r: u (r_A + r_B)
-///     (2) in total 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D; the first three are at most 14.9 u
-///         S, as in (1') there
-///     (3) stored radii include 16.5 u S, and R adds 16 u D
+///     (1) (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; t v, which is rotated as d is, by 4.6 u t |v|; r by
+///         u (r_A + r_B)
+///     (2) in total 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D. The first three terms are at most
+///         14.9 u S, by the steps of (1') in rounding.hpp
+///     (3) stored radii include 16.5 u S, and R adds 16 u D, which is more than (2)
 ///     (4) the subtraction of squares in double loses 2^-51 of them, possibly much of the difference. But R
-///         exceeds the distance at t by 4.8 u D, where D > r, at least 2^-23 of itself; the loss moves the
-///         contact by less than 2^-28 of what this moves it
+///         exceeds the distance at t by 4.8 u D where D > r, which is at least 2^-23 of R. The loss changes
+///         the time by less than 2^-28 of what this excess changes it
 ///     (5) the last product subtracts 4 u, for the rounding to float
 ///
-/// So at time t the float discs of radius R overlap, and their first contact is not later. (If exact discs
-/// approach but b <= 0 here: b is off by a few u D |v|, so these approach by the square of that only, and
-/// overlap at the start.)
+/// So at time t the float discs of radius R overlap, and their first contact is not later. (The case of exact
+/// discs that approach, but b <= 0 here: b is off by a few u D |v|. So these discs approach only by the square
+/// of that error, and they overlap at the start.)
 ///
 /// Bounds of nodes: how far A has moved when enlarged discs (C, R'), which contain the two discs, touch.
 /// Distances along and across the displacement are computed at once, from the discs of both sides rotated by
-/// (w_x, w_y) = v / |v| (1 - `rough`); so all lengths except radii are shortened. With D <= D' + 2 S:
+/// (w_x, w_y) = v / |v| (1 - `rough`). So all lengths except radii are shortened. D' is the distance of the
+/// centres C, D <= D' + 2 S, and F the length that the constructor gets.
 ///
-///     (6) at T the centres are within R'_A + R'_B + 16 u D, also if discs move apart; rounding adds 20 u S +
-///         4 u D: in total 60 u S + 20 u D'
+///     (6) at T the centres are within R'_A + R'_B + 16 u D, also if discs move apart. Rounding adds 20 u S +
+///         4 u D. In total 60 u S + 20 u D'
 ///     (7) the rotation adds 2 u of each coefficient of B's placement, of |d| and of A's centre, and rounds
-///         two more sums: 6 u P_B + 2 u P_A + 3 u |d| + u D', with centres within 1.42 extents; and 2.5 u D'
-///         for (w_x, w_y): either length is off by at most 13 u S + 7 u D'
+///         two more sums: 6 u P_B + 2 u P_A + 3 u |d| + u D', with centres within 1.42 extents. (w_x, w_y)
+///         adds 2.5 u D'. So either length, along or across, is off by at most 13 u S + 7 u D'
 ///     (8) with 3 u of the squares, the root is off by 19 u S + 7 u D'
 ///     (9) the difference is too late by at most 15 u S + 8 u D'
-///    (10) in total 94 u S + 35 u D', for which radii are enlarged by `slack` = 256 u F, with S <= F and D'
-///         <= F
+///    (10) the sum of (6), (8) and (9) is 94 u S + 35 u D'. Radii are enlarged by `slack` = 256 u F, which is
+///         more, because S <= F and D' <= F
 ///    (11) the slack also makes the squares of discs that touch during the displacement differ by far more
 ///         than their rounding. So a negative square, whose root is NaN, belongs to discs that never touch
 ///    (12) radii are not shortened, so the root exceeds its part of the displacement by more than the error
-///         of approximate_sqrt(). If that is exact, (w_x, w_y) is off by up to 3 u R' <= 6 u S, within the
-///         slack
-///    (13) a time T is compared as T |v|, shortened like lengths and then lengthened by 2^-18 of itself, for
-///         the errors of |v| and of the products. Bounds below 0 only have to stay below 0
+///         of approximate_sqrt(). If approximate_sqrt() is exact, (w_x, w_y) is off by up to 3 u R' <= 6 u S,
+///         which the slack covers
+///    (13) a time T is compared as T |v|. This product is shortened as lengths are, and then lengthened by
+///         2^-18 of itself, for the errors of |v| and of the products. Bounds below 0 only have to stay
+///         below 0
 ///
 /// Without the slack, or with F of one shape alone, tests/kernel/queries_test.cpp finds later times than
 /// brute force does.

@@ -137,8 +137,9 @@ class TimeOfImpactTraversal {
     };
     open.a = child(frame.a, i), open.b = child(frame.b, j);
     frame.bound[open.which] = far_beyond;
-    // If one node is a leaf block, it is visited whole with the child of the other. That visit covers the child's
-    // pairs with all discs of the leaf block, so their bounds are closed here.
+    // A leaf block has no children. If one of the two nodes is a leaf block, the next visit tests the child of the other
+    // node with all eight discs of the leaf block. So no other pair of that child and a disc of the leaf block is
+    // visited: the bounds of these pairs are closed.
     if (frame.a >= leaf_bit) [[unlikely]]
       close(j, block_width);
     if (frame.b >= leaf_bit) [[unlikely]]
@@ -150,8 +151,8 @@ class TimeOfImpactTraversal {
     return node >= leaf_bit ? node : Nodes::child(nodes_, node, lane);
   }
 
-  /// Computes the times of the discs with the least bounds, which usually exclude all other discs of two
-  /// leaf blocks.
+  /// Computes the time of impact of the two discs with the least bound, for each pair at two leaf blocks. This time
+  /// usually excludes all other discs of the two leaf blocks.
   void update_times() noexcept {
     for (std::uint32_t k = 0; k < leaf_blocks_.size; ++k) {
       const Open& open = open_[leaf_blocks_.pair[k]];
@@ -182,7 +183,8 @@ class TimeOfImpactTraversal {
     }
   }
 
-  /// Returns pairs without useful bounds, and pairs at two leaf blocks, which are done, to their previous nodes.
+  /// Returns two kinds of pairs of agents to their previous nodes: those without useful bounds, and those at two
+  /// leaf blocks, because nothing is below leaf blocks.
   void ascend() noexcept {
     for (std::uint32_t k = 0; k < leaf_blocks_.size; ++k) missed_.add_if(true, leaf_blocks_.pair[k]);
     returning_.size = 0;
@@ -191,7 +193,7 @@ class TimeOfImpactTraversal {
       Open& open = open_[slot];
       const bool over = open.frame == open.bottom;
       open.frame -= !over;
-      // Pairs that are not over overwrite this later.
+      // This is final for pairs whose search is over. The others write it again.
       times_[open.pair] = open.measure.time();
       returning_.add_if(!over, slot);
       free_.add_if(over, slot);

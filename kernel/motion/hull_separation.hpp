@@ -16,16 +16,18 @@ namespace bch::detail {
 /// function about the body's position, times the direction's length. The bound is linear between its values
 /// at both ends, plus a bulge.
 ///
-/// Derivation. Let 0 <= s <= 1 be the fraction of the interval, d0 and d1 the direction in the body's frame
-/// at its ends, and `turn` the angle of rotation in between.
+/// Derivation. Let s, from 0 to 1, be the fraction of the interval that has passed. d0 and d1 are the direction
+/// in the body's frame at the start and at the end, and `turn` is the angle of rotation in between. The hull
+/// (swept 32-DOP) bounds the support in direction d of the body's frame at s by E(d, s), which is linear in s.
 ///
-///     (1) In the body's frame, the hull (swept 32-DOP) bounds the support in direction d by E(d, s), which
-///         is linear in s.
-///     (2) A vector rotated by the angle s * turn differs from the interpolation of both ends, (1 - s)
-///         (rotated by 0) + s (rotated by turn), by at most turn^2 / 8 of its length.
-///     (3) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 extent.
-///     (4) The first two terms exceed linear interpolation between E(d0, 0) and E(d1, 1) by s (1 - s) (E(d0,
-///         1) - E(d0, 0) - E(d1, 1) + E(d1, 0)), where s (1 - s) <= 1/4.
+///     (1) Rotate a vector by s * turn. The result differs from the linear interpolation of both ends,
+///         (1 - s) (vector) + s (vector rotated by turn), by at most turn^2 / 8 of the vector's length.
+///     (2) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 extent.
+///     (3) Compare the first two terms with the linear interpolation between E(d0, 0) and E(d1, 1). They are
+///         more by s (1 - s) g, where g = (E(d0, 1) - E(d0, 0)) - (E(d1, 1) - E(d1, 0)).
+///     (4) s (1 - s) <= 1/4. So the bulge is at most g / 4 + turn^2 / 8 extent.
+///
+/// Hulls store E as integers, in multiples of `step_`.
 class SupportBound {
  public:
   /// The support at both ends, and the most by which it exceeds linear interpolation.
@@ -86,9 +88,11 @@ struct SeparatingLine {
   }
 };
 
-/// Returns whether bands a and b of two bodies overlap in height at some time of an interval. Neighbouring
-/// bands of one body overlap by hull_overlap, so less than that need not count; half of it is left for
-/// rounding. z_a and z_b are the heights of the grounds, and low <= z_a - z_b <= high. Bands overlap if
+/// Returns whether bands a and b of two bodies overlap in height at some time of an interval. Bands with less than
+/// hull_overlap of height in common need not be compared, because neighbouring bands of one body overlap by
+/// hull_overlap (animated_hulls.hpp). Here only bands with at most half of it in common count as apart, so that
+/// rounding of heights cannot lose a pair. z_a and z_b are the heights of the grounds, and low <= z_a - z_b <= high.
+/// Bands overlap if
 ///
 ///     min(top_a + high, top_b) - max(bottom_a + low, bottom_b) > hull_overlap / 2
 inline bool bands_overlap(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {

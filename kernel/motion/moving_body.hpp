@@ -52,9 +52,9 @@ class MovingBody {
   /// interval from this key to the next.
   std::size_t key() const noexcept { return key_; }
   double fraction(double time) const noexcept;
-  /// Returns the hull over the current window at a level: 2^level successive chunks of the clip
-  /// (AnimatedTreeChunk), among them the current one. hull_end() is the end of that window, and
-  /// hull_fraction() the fraction of it at a time.
+  /// Returns the hull over the current window at a level. A window is 2^level successive chunks of the clip, among
+  /// them the current one; a chunk (AnimatedTreeChunk) is a part of the clip in which all discs have the same keys,
+  /// two or more. hull_end() is the end of that window, and hull_fraction() the fraction of it at a time.
   const HullInterval& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }
@@ -64,7 +64,7 @@ class MovingBody {
   double hull_fraction(double time, unsigned level) const noexcept;
   const AnimatedTree& tree() const noexcept { return *facts_->tree; }
   const AnimatedTreeChunk& chunk() const noexcept { return tree().chunks[chunk_]; }
-  /// Returns how many chunks have begun; each has discs of its own.
+  /// Returns how many chunks have begun. The number changes when the discs do, because each chunk has its own.
   std::uint32_t chunks_begun() const noexcept { return chunks_begun_; }
 
  private:

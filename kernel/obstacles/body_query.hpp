@@ -23,7 +23,9 @@ struct PlacedBody {
   const ShapeSetView& shapes;
   ObstaclePlace place;
   std::uint32_t shape, level;
-  double searched;     ///< metres: segments within this distance of its outer disc were searched
+  /// Metres: segments within this distance of the outer disc were searched. The outer disc is about the root's centre
+  /// and contains all discs of the cut (outer_radius()).
+  double searched;
   std::size_t number;  ///< index among the bodies that were prepared
 
   std::uint32_t root_index() const noexcept { return shape * shapes.level_count + level; }
@@ -38,8 +40,8 @@ constexpr double farthest_gap = 8 * rounding::largest_position;
 /// Holds the nearest obstacle of an agent.
 struct NearestObstacle {
   double gap;  ///< metres; if nothing was found, the limit
-  /// The nearest part of the agent. It is a segment of the outline, given by its first point, or, if `point` is
-  /// no_point, the disc `disc` of the agent's cut: of the discs at its level of detail.
+  /// The nearest part of the agent. It is a segment of the outline, given by its first point. If `point` is no_point,
+  /// it is instead the disc number `disc` of the agent's cut, which is the discs at its level of detail.
   std::uint32_t point = no_point, disc = 0;
   const PlacedBody* body = nullptr;
   LocalSegment segment = {};
@@ -52,8 +54,8 @@ enum class SearchMode { touching, nearest };
 /// Answers queries of agents against obstacles; it reuses its memory from agent to agent.
 class BodyQuery {
  public:
-  /// With `exact_leaves`, outlines decide and are measured if shapes have exact leaves, else discs. With `in_space`,
-  /// obstacles above and below a body, up to the limit of prepare(), are near it, too.
+  /// With `exact_leaves`, the outlines of shapes with exact leaves are tested and measured; for all other shapes,
+  /// discs are. With `in_space`, obstacles above and below a body are near it, too, up to the limit of prepare().
   BodyQuery(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
             const ObstacleView& obstacles, bool exact_leaves, bool in_space = false) noexcept
       : implementation_(implementation),
@@ -93,8 +95,8 @@ class BodyQuery {
     if (!stop) visit_areas_beyond(*body, found);
   }
 
-  /// Finds the least gap, if at most `limit`, of an agent, metres. The search ends at a gap of at most `stop_below` or, with
-  /// `inside`, if an area contains the agent or its outline contains a polyline.
+  /// Finds the least gap, if at most `limit`, of an agent, metres. The search ends at a gap of at most `stop_below`.
+  /// With `inside`, it also ends if an area contains the agent, or if the agent's outline contains a polyline.
   NearestObstacle nearest(std::uint32_t agent, double limit, double stop_below, bool inside);
   bool is_within(std::uint32_t agent, double distance) {
     return nearest(agent, distance, distance, true).is_within;
@@ -120,8 +122,8 @@ class BodyQuery {
  protected:
   /// Calls visit(segments) for growing distances beyond that of prepare(). visit() updates `nearest`. The search ends
   /// when no segment beyond the distance can be nearer than `nearest`, or when the gap of `nearest` is at most
-  /// `stop_below`. The segment nearest to the body's centre comes first: its gap exceeds the least one by at most twice
-  /// the outer radius, so that few others remain.
+  /// `stop_below`. The segment nearest to the body's centre comes first. Its gap exceeds the least gap of all segments
+  /// by at most twice the outer radius, so few other segments can be nearer.
   template <class Nearest, class Visit>
   void search_outward(const PlacedBody& body, double stop_below, const Nearest& nearest, const Visit& visit) {
     constexpr double least_step = 0.05;  // metres
@@ -175,8 +177,10 @@ class BodyQuery {
   std::size_t chosen_count_ = 0;
   std::vector<NearQuery> queries_;  ///< by body
   std::vector<PlacedBody> bodies_;
-  std::vector<std::size_t> place_;  ///< by agent: index in bodies_, and one past the last
-  std::uint32_t begin_ = 0;         ///< the first agent that was prepared
+  /// By agent from begin_ on: the index in bodies_ of its body, or of the next body if it was left out. There is one
+  /// element more than agents: the last is the number of bodies.
+  std::vector<std::size_t> place_;
+  std::uint32_t begin_ = 0;  ///< the first agent that was prepared
 };
 
 }  // namespace bch::detail

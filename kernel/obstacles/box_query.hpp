@@ -14,8 +14,9 @@ namespace bch::detail {
 template <class Simd>
 class BoxQuery {
  public:
-  /// Tests blocks of one level for many queries: for each block and query of `in`, writes the boxes that overlap the query's, in
-  /// the order of `in`. No branch depends on an answer. `out` has room for 8 * count hits.
+  /// Tests blocks of one level for many queries. Each element of `in` names one block and one query. For each element,
+  /// in order, it writes the boxes of that block that overlap the box of that query. No branch depends on an answer.
+  /// `out` has room for 8 * count hits.
   /// Returns: how many were written.
   static std::uint32_t run(const BoxBlock* blocks, const Box* queries, const BoxHit* in, std::uint32_t count,
                            BoxHit* out) noexcept {

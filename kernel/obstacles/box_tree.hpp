@@ -19,8 +19,8 @@ struct BoxBlock {
 
 constexpr std::uint32_t max_box_levels = 11;  ///< 8^11 is 2^33 boxes
 
-/// Represents a tree of boxes, eight per block: below box i of block b is block 8 b + i of the next lower level; box i of block
-/// b of level 0 is box 8 b + i of BoxTreeMemory::order.
+/// Represents a tree of boxes, eight per block. Block 8 b + i of a level has the boxes inside box i of block b of the
+/// level above. On level 0, box i of block b is the box number order[8 b + i] of the input (BoxTreeMemory::order).
 struct BoxTreeView {
   const BoxBlock* blocks;
   std::uint32_t level_begin[max_box_levels];
@@ -32,7 +32,7 @@ struct Box {
   double low_x, low_y, high_x, high_y;
 };
 
-/// Represents a tree of boxes and its memory; it does not move.
+/// Represents a tree of boxes and its memory. The object cannot be copied or moved, because `view` points into it.
 struct BoxTreeMemory {
   explicit BoxTreeMemory(std::span<const Box> boxes);
   BoxTreeMemory(const BoxTreeMemory&) = delete;
@@ -50,8 +50,8 @@ struct BoxHit {
 /// Searches a tree for boxes near a point, the nearest first, and reuses its memory.
 class NearestBoxes {
  public:
-  /// Calls take(place) for the boxes whose squared distance from a point is below `limit`, which take() may lower; those of
-  /// near blocks come first.
+  /// Calls take(place) for the boxes whose squared distance from a point is below `limit`. take() may lower `limit`.
+  /// Boxes of near blocks come first.
   template <class Take>
   void visit(const BoxTreeView& tree, double x, double y, const double& limit, const Take& take) {
     open_.clear();
@@ -76,8 +76,8 @@ class NearestBoxes {
   }
 
  private:
-  /// Represents a block, and the squared distance of its box from the point. Of equally near blocks, that of the lowest level
-  /// comes first.
+  /// Represents a block, and the squared distance of its box from the point. If blocks are equally near, the one of
+  /// the lowest level comes first.
   struct OpenBlock {
     double square;
     std::uint32_t level, block;

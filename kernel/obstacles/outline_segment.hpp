@@ -10,24 +10,28 @@
 
 namespace bch::detail {
 
-/// Compares a segment of an agent's outline with one of an obstacle: whether they meet, and how far apart they are. All in double,
-/// in coordinates along the obstacle's segment and perpendicular to it. (`Simd` keeps instruction sets from sharing a function.)
+/// Compares a segment of an agent's outline with one of an obstacle: whether they meet, and how far apart they are.
+/// All in double, in coordinates along the obstacle's segment and perpendicular to it. (`Simd` keeps instruction sets
+/// from sharing a function.)
 ///
-/// With s the least distance of an end from the other segment, 0 if they cross, m the outline's margin of exact leaves and
-/// slack that of LocalSegment,
+///     gap = max(0, s - (m + slack))
 ///
-///     gap = max(0, s - (m + slack)).
+/// s is the least distance of an end from the other segment, 0 if the segments cross. m is the outline's margin of
+/// exact leaves. slack is that of LocalSegment. D is the distance of the outlines.
 ///
-/// Never above the distance D of the outlines: m bounds the error of the outline's points (rounding.hpp, V, for one shape), and half
-/// of slack that of the segment. The rounding of s itself, 2^-51 s, is in the other half of slack and in m, because s is at most the
-/// distance to the segment's ends plus the extent.
+/// The gap is never above D:
 ///
-/// Below D by no more than m, twice slack, and the rounding to float. With A and B the distances of the segment's ends from the agent,
-/// |dx| + |dy| <= sqrt(2) A, and the length is at most A + B, so that
+///   - m bounds the error of the outline's points (rounding.hpp, V, for one shape).
+///   - Half of slack bounds the error of the obstacle's segment.
+///   - The rounding of s is 2^-51 s. s is at most the distance to the segment's ends plus the extent, so the other half
+///     of slack, and m, cover it.
+///
+/// The gap is below D by at most m, twice slack, and the rounding to float. Let A and B be the distances of the
+/// segment's ends from the agent. Then |dx| + |dy| <= sqrt(2) A, and the length is at most A + B, so that
 ///
 ///     2 slack = 2^-48 (|dx| + |dy| + length)  <=  2^-48 ((1 + sqrt(2)) A + B)  <=  8.6e-15 (A + B)
 ///
-/// Segments that meet have a gap of 0: they cross or s <= m + slack, by the same numbers.
+/// Segments that meet have a gap of 0: meeting is s <= m + slack or a crossing, decided with the same numbers.
 template <class Simd>
 class OutlineSegment {
  public:
@@ -40,9 +44,9 @@ class OutlineSegment {
     return (p_.y > distance && q_.y > distance) || (p_.y < -distance && q_.y < -distance);
   }
 
-  /// Returns how the segments meet. They do if they cross, or an end of one is within the margin of the other: if rounding hides a
-  /// crossing, an end is next to the other segment. A crossing is sure if all ends are farther from the other's line than the
-  /// margin, which is far above errors of double.
+  /// Returns how the segments meet. They do if they cross, or an end of one is within the margin of the other: if
+  /// rounding hides a crossing, an end is next to the other segment. A crossing is sure if all ends are farther from
+  /// the other's line than the margin, which is far above errors of double.
   Meeting meet(double margin) const noexcept {
     const double limit = margin + segment_.slack;
     if (is_off_line(limit)) return Meeting::none;

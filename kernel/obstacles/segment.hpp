@@ -12,13 +12,18 @@
 
 namespace bch::detail {
 
-/// Represents a segment of an obstacle in the frame of an agent, by its line: a point has coordinates `along` it and `across` it.
+/// Represents a segment of an obstacle in the frame of an agent, by its line: a point has coordinates `along` it and
+/// `across` it.
 ///
-/// Rounding, in the notation of layout/base/rounding.hpp. All is done in double, with headings that are within 3e-10 of the exact
-/// ones, which moves points within the extent P of an agent by 0.006 u P: enlarged radii have room for 16.5 u P of queries
-/// (contact_error). Double rounds in proportion to the ends' distance d from the agent: by 2^-53 |d| for each of the subtraction of
-/// positions, the direction (three roundings), two products and a sum, less than 8 * 2^-53 |d| together. `slack` is twice that. So
-/// a disc whose outline meets the segment passes touches(), and a gap is never larger than that of the outlines.
+/// Rounding, with the notation of layout/base/rounding.hpp. All is done in double.
+///
+///   - Headings are within 3e-10 of the exact ones. That moves points of the agent, which are within its extent P, by
+///     0.006 u P. Enlarged radii allow for 16.5 u P (contact_error).
+///   - Let d be the distance of the segment's ends from the agent. The subtraction of positions, the direction (three
+///     roundings), two products and a sum are off by 2^-53 |d| for each rounding, together by less than 8 * 2^-53 |d|.
+///     `slack` is twice that.
+///
+/// So a disc whose outline meets the segment passes touches(), and a gap is never larger than that of the outlines.
 struct LocalSegment {
   double x, y;      ///< the unit vector along it
   double offset;    ///< `across` of the line, from the agent's position
@@ -48,7 +53,8 @@ struct LocalSegment {
   }
 };
 
-/// Returns whether one of `count` segments touches a disc. (Inlined for certain, so that instruction sets share no function.)
+/// Returns whether one of `count` segments touches a disc. (Inlined for certain, so that instruction sets share no
+/// function.)
 [[gnu::always_inline]] inline bool any_touches(const LocalSegment* segments, std::size_t count, double x,
                                                double y, double radius) noexcept {
   for (std::size_t i = 0; i < count; ++i)
@@ -59,15 +65,15 @@ struct LocalSegment {
 constexpr double relative_slack = 0x1p-49;
 static_assert(relative_slack >= 2 * 8 * 0x1p-53);
 
-/// Represents a segment in the world: its ends, the unit vector from the one to the other, which is (1, 0) where they are the same, and its
-/// length, metres.
+/// Represents a segment in the world: its ends, the unit vector from the one to the other, which is (1, 0) where they
+/// are the same, and its length, metres.
 struct WorldSegment {
   double ax, ay, bx, by;
   double x, y, length;
   std::uint32_t number, obstacle;
 
-  /// Returns the squared distance from a point of the world. LocalSegment has the same, apart from rounding; for one point and many
-  /// segments, this saves rotating each.
+  /// Returns the squared distance from a point of the world. LocalSegment has the same, apart from rounding; for one
+  /// point and many segments, this saves rotating each.
   double square_distance(double at_x, double at_y) const noexcept {
     const double dx = at_x - ax, dy = at_y - ay;
     const double along = dx * x + dy * y, across = dx * y - dy * x;

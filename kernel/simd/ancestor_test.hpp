@@ -31,7 +31,8 @@ struct AncestorPath {
   void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
     const std::uint32_t adjacent = tree.first_inner() + (disc - tree.discs);
     // Inner nodes are stored in-order: node k lies between discs k and k + 1. If the first child of node k is a cut
-    // disc (parent_of_cut_disc), that child is disc k. Otherwise disc k is the second child of node k - 1.
+    // disc, that child is disc k, and the link of the node has the top bit, parent_of_cut_disc. Otherwise the link is less
+    // than parent_of_cut_disc, and disc k is the second child of node k - 1.
     node[0] = adjacent - (link(nodes, adjacent) < parent_of_cut_disc);
   }
   /// Sets node k, the parent of node k - 1.
@@ -56,8 +57,8 @@ struct AncestorPath {
   }
 };
 
-/// Tests whether two overlapping cut discs are a hit: each of the one and its ancestors overlaps each of the other and its
-/// ancestors; see <bch/query.hpp>.
+/// Tests whether two overlapping cut discs are a hit. They are if each disc overlaps all ancestors of the other, and
+/// all ancestors of one overlap all ancestors of the other; see <bch/query.hpp>.
 template <class Simd>
 class AncestorTest {
  public:
@@ -84,8 +85,9 @@ class AncestorTest {
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
   /// The least depth, in units of the sum of extents, at which a point inside all discs proves overlaps. If a point
   /// lies that deep in every disc of both paths, each disc of A overlaps each disc of B by at least twice the depth.
-  /// Rounding is covered: both calls of contains_point() and the test of two discs start from the same floats, and each of
-  /// these three computations rounds one difference, squares and radii, which are at most the sum of extents.
+  /// Twice the depth covers the rounding. Three computations round: contains_point() for the disc of A, contains_point() for
+  /// the disc of B, and the test of the two discs. All three start from the same floats. Each rounds one difference of
+  /// centres, its square, and radii. All these lengths are at most the sum of extents.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *

@@ -39,11 +39,11 @@ constexpr unsigned block_pairs = block_width * block_width;
 template <class Simd, unsigned count, class Visit>
 void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept;
 
-/// Calls visit(k, x, y, r) for every register of pairs of the first `count` (4 or 8) discs of A and of B. Its lanes are
-/// the pairs from k on; pair count * i + j is of disc i of A and disc j of B. (x, y) leads from A's disc to B's in A's
-/// frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding gives infinities and
-/// NaN. It is inlined because a call takes longer than a test. With a width of 1 it is not, because its copies would
-/// fill the object file.
+/// Calls visit(k, x, y, r) for every register of pairs of the first `count` (4 or 8) discs of A and of B. Its lanes
+/// are the pairs from number k on. Disc i of A and disc j of B are the pair with the number `count * i + j`. (x, y)
+/// leads from A's disc to B's in A's frame, r is the sum of radii. The operations are those of
+/// layout/base/rounding.hpp. Padding gives infinities and NaN. It is inlined because a call takes longer than a test.
+/// With a width of 1 it is not, because its copies would fill the object file.
 template <class Simd, unsigned count = block_width, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {

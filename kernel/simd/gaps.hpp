@@ -26,19 +26,22 @@ namespace bch::detail {
 /// Error of a hit (gap_price): how far v may exceed d. (1) and v use the same rounded x^2 + y^2.
 ///
 /// (4)  hit  =>  e <= (r + d) (1 + 34 u) (1 + 3 u)        with the rounding of g and of the right side
-/// (5)  hit => v <= d + 23 u (r + d) by (4); the factor of v takes off 16 u, its root and product add 2 u
+/// (5)  hit  =>  v <= d + 23 u (r + d)                    (4), less 16 u by the factor of v, plus 2 u by its root and
+///                                                        product
 ///
 /// Bounds. `bound` is for discs that enclose leaf discs, and for lines that separate leaf discs. D is the exact
-/// distance of the centres of two leaf discs. Their float placement is off by at most 23 u S + 8 u g, so e differs from
-/// D by at most that, which (6) adds to (4). The enclosing discs are placed with the same error, which (7) adds.
+/// distance of the centres of two leaf discs. Placing the two in float is off by at most 23 u S + 8 u g. So e differs
+/// from D by at most 23 u S + 8 u g. (6) is (4) plus this error. Placing the enclosing discs is off by as much again,
+/// which is (7).
 ///
 /// (6)  hit  =>  D - r <= g + 37 u (r + g) + 23 u S + 8 u g
 /// (7)  placing the enclosing discs is off by 23 u S + 8 u g
-/// (8) supports and profiles round lengths of up to 2 S + g; their margins cover the errors in S; 21 u g remain
+/// (8)  supports and profiles round lengths of up to 2 S + g; their own margins cover the errors of the part 2 S, and
+///      the errors of the part g are at most 21 u g
 /// (9)  bound = g + 128 u (S + g) exceeds the sum of (6) to (8)
 ///
-/// Accepting (sure_gap). Inscribed discs and profiles may accept only pairs within d. The distance that they test is
-/// wrong by up to 11 u g, and g exceeds d by up to 34 u d, so they test g (1 - 64 u).
+/// Accepting (sure_gap). Inscribed discs and profiles may accept only pairs within d. They compare a distance that is
+/// wrong by up to 11 u g, and g exceeds d by up to 34 u d. So they compare it with g (1 - 64 u).
 struct Gaps {
   float leaf;   ///< g
   float bound;  ///< of discs that hold leaf discs
@@ -60,7 +63,7 @@ Gaps gaps(float leaf, float max_extent) noexcept {
   return {leaf, leaf + static_cast<float>(gap_bound_fraction) * (max_extent + leaf)};
 }
 
-/// Is true for the stages of within(). Those of collide() have no gaps, and do not pay for them.
+/// Is true for the stages of within(). The stages of collide() have no gaps, and contain no code for them.
 template <class Simd>
 concept KnowsGaps = requires {
   Simd::knows_gaps;

@@ -34,7 +34,8 @@ class ProfileTest {
         discs_decide_(arguments.exact_leaves ? 0.0f : 1.0f) {}
 
   /// Finds, for all pairs of the packet, the line between the centres, and loads the sectors of both profiles along it.
-  /// `row_a`, `row_b`: for each pair, Root::row of the two roots; null if ShapeSetView::rows_follow_roots.
+  /// `row_a`, `row_b`: for each pair, Root::row of the two roots, which is the row of their supports or the value
+  /// single_disc or no_supports (layout/format/shape_set_view.hpp). Both are null if ShapeSetView::rows_follow_roots.
   void load_sectors(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
     const std::uint32_t count = transforms_.whole_registers();
@@ -115,7 +116,8 @@ class ProfileTest {
   }
 
   /// Writes the bound of the pair's level into sector_outer, which holds that of the deepest level; sector_shallow_outer
-  /// holds that of the others. A single disc was tested by test_roots(), and gets an infinite bound.
+  /// holds that of the others. A cut of a single disc gets an infinite bound, because PairKernel::test_roots() tests
+  /// it.
   static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       const float shallow = row[k] == no_supports ? of.field[sector_shallow_outer][k] : __builtin_inff();

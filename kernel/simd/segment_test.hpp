@@ -17,7 +17,7 @@ namespace bch::detail {
 enum class Meeting : std::uint8_t {
   none,
   within_margin,  ///< they come within the margin of each other
-  sure,           ///< they also surely cross: some two leaves and all their ancestors overlap
+  sure,           ///< they also cross despite all rounding; so two leaves and all their ancestors overlap
 };
 
 /// Returns the distance, metres, up to which segments of two shapes meet. (`Simd` keeps instruction sets from sharing a
@@ -39,9 +39,10 @@ class SegmentTest : private SegmentBatch<Simd> {
   using typename SegmentBatch<Simd>::Row;
 
   /// Collects all pairs of a segment of leaf i of row a and a segment of leaf j of row b. (A row, LeafSegments::Row,
-  /// counts the leaves of a tree from one leaf on.) `placed` is the index of the PlacedSegments that place B, and
-  /// `owner` a number of the caller's for this pair of leaves. Calls use(owner, meeting) for each pair of segments that
-  /// meets, now or in finish(). Leaves of too many segments are treated as within the margin.
+  /// is a run of consecutive leaves of a tree; i and j count from the first leaf of their rows.) `placed` is the
+  /// index, in the array given to the constructor, of the transform of this pair of agents. `owner` is a number of the
+  /// caller's for this pair of leaves. Calls use(owner, meeting) for each pair of segments that meets, now or in
+  /// finish(). Leaves of too many segments are treated as within the margin.
   template <class Use>
   [[gnu::always_inline]] void add(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
                                   std::uint32_t j, std::uint32_t owner, Use use) noexcept {

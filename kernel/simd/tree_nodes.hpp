@@ -10,9 +10,9 @@
 
 namespace bch::detail {
 
-/// Decodes the name of a node of a flat tree (layout/format/shape_set_view.hpp): its index in ShapeSetView::nodes, with
-/// the top bit set for a leaf block, which is a leaf of eight consecutive discs of the cut. All other nodes are blocks.
-/// (`Simd` keeps instruction sets from sharing a function.)
+/// Decodes the name of a node of a flat tree (layout/format/shape_set_view.hpp): its index in ShapeSetView::nodes,
+/// with the top bit set for a leaf block. A leaf block is a leaf of eight consecutive discs of the cut (the discs of one level
+/// of detail). All other nodes are blocks. (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct TreeNodes {
   /// Returns a mask, all ones if the node is a leaf block. GCC would compile a condition to a branch, and no processor can
@@ -26,7 +26,8 @@ struct TreeNodes {
     return {nodes + (node & ~leaf_bit), to_y, 2 * to_y};
   }
 
-  /// Returns the eight discs of a node. Those of a block have the outer radii in place of their own.
+  /// Returns the eight discs of a node, for distances. The discs of a block have their outer radii: a disc of the same
+  /// centre with the outer radius encloses all discs of the cut below, which may protrude from the disc itself.
   static Discs outer_discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::uint32_t leaf = all_if_leaf(node);
     return {nodes + (node & ~leaf_bit), block_width + (leaf & (stride - block_width)),

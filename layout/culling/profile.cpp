@@ -15,16 +15,25 @@
 #include "layout/culling/cut_lanes.hpp"
 #include "layout/format/contours.hpp"
 
-/// Rounding, in the terms of rounding.hpp. The line of centres D that a query computes in float is within 40 u S of the
-/// exact one (along); B's turn, D seen from B, and the sector are off by another 20 u, which is 40 u P_A and 40 u P_B
-/// across (across).
+/// Rounding, with the notation of rounding.hpp. A query computes the line of length D between the centres, and the
+/// sectors of both profiles along it, in float. Three errors follow:
 ///
-/// inner: a disc of `margin` about each point of the sector, out to there, touches no contour. So the point that both
-/// have still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S (sums).
-/// outer: the same error along and across the line, and the 23 u S by which discs that the test accepts may be apart:
-/// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P. Segments that meet are less than 29 u S apart, (segment_price).
-/// extent: the same without the 23 u S, on top of what outer has to spare.
-/// Tests see the sign of `margin`; only this proof needs all of it.
+///     (along)    40 u S     of the line
+///     (across)   40 u P     of either shape: the rotation of B, the direction of the line as seen from B, and the
+///                           sector are off by another 20 u; a point is at most 2 P from the profile's centre
+///     (sums)     6 u S      of the sums of two bounds, and their comparison with D
+///
+/// inner: A disc of radius `margin` about each point of the sector, up to `inner`, touches no contour. If inner_A +
+/// inner_B >= D, a point between the centres belongs to both areas. It still belongs to both if B is moved by (along),
+/// and if the point lies (across) beside the exact line.
+///
+/// outer: The same three errors count, and the 23 u S by which discs may be apart that the float test accepts. The sum
+/// 23 + 40 + 40 + 6 is below 110 u S. Outer bounds are enlarged by 320 u P, as supports are. For segments that meet,
+/// (segment_price) replaces the 23 u S; it is less than 29 u S.
+///
+/// extent: The same three errors count. What the enlargement of outer exceeds 110 u S by is enough for them.
+///
+/// Tests fail if the sign of `margin` is wrong. Only this proof needs all of it.
 namespace bch::detail {
 namespace {
 
@@ -167,8 +176,9 @@ class Inside {
   std::array<double, profile_sectors> square_;  ///< of distances
 };
 
-/// The least that the contour extends to in directions opposite to each sector: its farthest points do at either end,
-/// and what is positive there is no less between.
+/// Returns, for each sector, a lower bound of how far the contour extends in the directions opposite to the sector's.
+/// Each of a few farthest points of the contour gives a bound: the lesser of its extents along the two directions that
+/// limit the sector. In between its extent is no less, if the lesser one is positive.
 std::array<double, profile_sectors> extents(const Interior& interior, PlanePoint centre) {
   const Boundaries& to = boundaries();
   std::array<double, profile_sectors> most{};
@@ -233,8 +243,9 @@ Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double m
           outer(profile, x, y, radius, points.count(), max_extent)};
 }
 
-/// Between two directions a bound is that of the corner of two lines. Lines that are farther by d have a corner that is farther by d over
-/// the cosine of half of their angle, 1.0048 of d at most. Outer bounds are compared as they are.
+/// Between two directions, a bound is given by the corner of two supporting lines. If both lines are farther by d,
+/// their corner is farther by d over the cosine of half the angle between them, which is at most 1.0048 d. Outer
+/// bounds have no corners, so they are compared without this factor.
 float excess(const Bounds& discs, const Bounds& smaller) {
   constexpr double of_corner = 1.005;
   static_assert(support_directions == 32);

@@ -19,15 +19,19 @@ namespace bch::detail {
 ///
 ///     inner_A + inner_B >= D     a point between the centres belongs to both areas
 ///     outer_A + outer_B < D      a line across separates the cuts
-///     outer_A < D + extent_B B sticks out of A on the far side, so no contour of B lies inside one of A
+///     outer_A < D + extent_B     no contour of B lies inside one of A: on the far side of A, B extends beyond A
 ///
-/// extent_B is measured from B's centre away from A. A cut is the discs of a level of detail. The centre is the
-/// centroid of the largest contour. The profile_sectors sectors are equal parts of |y| / (|x| + |y|), quadrant by
-/// quadrant. B sees the same line from the other end, so its extent is stored with the opposite sector.
+/// A cut is the discs of a level of detail. The centre is the centroid of the largest contour. The profile_sectors
+/// sectors are equal parts of |y| / (|x| + |y|), quadrant by quadrant.
 ///
-/// Returns: the profile of an outline, with Sector::outer and Sector::shallow_outer left at infinity. `inner` is minus
-///          infinity without an outline and in sectors where the centre has no area of the outline around it. `extent`
-///          is minus infinity without an outline or with several contours, of which nothing is known.
+/// inner and outer are measured from a shape's centre towards the other shape. outer_A of the third line is measured
+/// from A's centre towards B. extent_B is measured from B's centre in the same direction, and so away from A. A lookup
+/// takes B's sector towards A. So the extent in a sector is that of the directions opposite to the sector's.
+///
+/// Returns: the profile of an outline, with infinity in Sector::outer (the bound of the deepest cut) and in
+///          Sector::shallow_outer (that of coarser cuts), which are set later. `inner` is minus infinity without an
+///          outline and in sectors where the centre has no area of the outline around it. `extent` is minus infinity
+///          without an outline or with several contours, of which nothing is known.
 /// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `max_extent`
 ///          that of the shape, metres.
 Profile profile(const Outline& outline, const Interior& interior, double max_extent);

@@ -20,7 +20,7 @@ constexpr std::uint32_t support_directions = 32;
 constexpr std::uint32_t support_stride = 2 * support_directions;
 
 /// Holds eight discs in parallel arrays. Unused ones are padding: infinitely far away, so that they overlap nothing.
-/// (A negative radius would be a hit, because the sum of radii is squared.)
+/// (A negative radius would not do: the test squares the sum of radii, so a large negative radius would be a hit.)
 struct DiscBlock {
   float x[block_width], y[block_width], radius[block_width];
 };
@@ -30,8 +30,7 @@ struct DiscBlock {
 /// block, which has six arrays of eight. The first three are x, y and radius of nodes of the hierarchy. The fourth
 /// has the names of the nodes below them, stored as the bits of floats. The fifth has outer radii: a disc about the
 /// same centre with the outer radius encloses all discs of the cut below, which may protrude from the node's own
-/// disc. The sixth has the nodes' numbers in the hierarchy: the number of an inner node, or leaf_bit + the
-/// position of a disc of the cut.
+/// disc. The sixth has the nodes' numbers: that of an InnerNode, or leaf_bit + the position of a disc of the cut.
 constexpr std::uint32_t leaf_bit = 0x80000000;
 constexpr std::uint32_t block_names = 3 * block_width;  ///< from a block's first x, like the next two
 constexpr std::uint32_t block_outer = 4 * block_width;
@@ -41,7 +40,8 @@ constexpr std::uint32_t block_floats = 6 * block_width;
 /// Represents an inner node: a node above the cut of a level. Inner nodes follow the cut's discs, in the in-order
 /// sequence of the binary tree. So inner node k stands between discs k and k + 1 of the cut: disc k is the last one
 /// below its first child, and disc k + 1 the first one below its second child. The last disc has no such node;
-/// padding takes its place. If the cut is one disc, that disc is the only inner node, as its own root.
+/// padding takes its place. A cut of one disc has no node above it. Its disc is then stored as the only inner node,
+/// too, and is its own parent.
 struct InnerNode {
   float x, y, radius;
   /// The number, in the whole set, of the parent (for the root: of itself), and perhaps parent_of_cut_disc.
@@ -75,9 +75,9 @@ struct Tree {
   float outer_radius;    ///< metres: the root's outer radius
   std::uint32_t segments = no_segments;  ///< position of the leaves' words in leaf_segments, or no_segments
   std::uint32_t points = 0;              ///< with segments: position of the shape's points
-  /// 1: every inner node encloses the cut discs below it with a margin; 0: some may not. Nodes of two trees with 1
-  /// overlap wherever the discs below them do, unless one shape is much larger than the other (section VIII of
-  /// layout/base/rounding.hpp).
+  /// 1: every inner node encloses the cut discs below it with a margin; 0: some may not. If both trees have 1, nodes
+  /// overlap wherever the discs below them do, also after rounding. The margin does not cover the rounding if one
+  /// shape is much larger than the other (section VIII of layout/base/rounding.hpp).
   std::uint32_t conservative_nodes = 0;
 
   /// Returns the number of the first inner node: its position in `nodes` divided by inner_floats. (Always inlined, so
@@ -103,18 +103,18 @@ constexpr std::uint32_t max_leaf_segments = 127;
 constexpr std::uint32_t profile_sectors = 32;
 struct Sector {
   float inner;  ///< up to here the sector is inside the largest contour
-  /// Upper bound of the support function in the sector's directions: of the outline, or, without segments, of the
-  /// deepest cut.
+  /// Upper bound of the support function in the sector's directions. It bounds the outline, or, if the shape has no
+  /// segments, the discs of the deepest cut.
   float outer;
-  float extent;         ///< lower bound of the contour's support function in the opposite directions
+  float extent;  ///< lower bound of the contour's support function in the directions opposite to the sector's
   float shallow_outer;  ///< like outer, for all cuts of more than one disc except the deepest
 };
 
 /// Represents the extents of a shape along lines from a centre: a header, followed by sectors of the same size.
 struct Profile {
   float x, y;  ///< the centre
-  /// How far discs of the deepest cut protrude from the outline, metres, where the stored supports and `outer` are
-  /// bounds of the outline. 0 where they are bounds of the discs.
+  /// How far discs of the deepest cut protrude from the outline, metres. It is 0 in shapes whose stored supports and
+  /// `outer` bound the discs; in all others these bound the outline.
   float excess;
   float discs_decide;  ///< 1 where a leaf of the deepest cut has no segments, else 0
   Sector sectors[profile_sectors];
@@ -157,7 +157,8 @@ struct ShapeSetView {
   const Contour* contours;
   const Vec2* points;
   const std::uint32_t* leaf_segments;  ///< words and lists, see Tree::segments; null if no tree has segments
-  const float* segment_margin;         ///< per shape, metres; see rounding.hpp, V
+  /// Per shape, metres: what it adds to the distance within which segments of two shapes meet (rounding.hpp, V).
+  const float* segment_margin;
 
   const Heights* heights;  ///< per shape; null if the plan has no heights
 };

@@ -23,22 +23,24 @@ namespace bch::detail {
 class HierarchyBuilder {
  public:
   HierarchyBuilder() = default;
-  /// Uses a given implementation of the discs, which this processor must support.
+  /// Uses a given implementation of the solver of smallest enclosing discs. This processor must support it.
   explicit HierarchyBuilder(const BuildImplementation& implementation) : solver_(implementation) {}
 
   /// Sets the largest number of nodes of a hierarchy, 2^22 by default. A hierarchy of more nodes throws
   /// std::length_error.
   void limit_nodes(std::size_t max) noexcept { max_nodes_ = max; }
 
-  /// Builds the hierarchy that contour_hierarchy() documents, without primitives. Nodes at depth `deepest` are
-  /// leaves; this does not change cuts at smaller depths. After an exception the hierarchy has no nodes.
+  /// Builds the hierarchy that contour_hierarchy() documents, without primitives. `rule` says where a node's items
+  /// are divided (split.hpp). Nodes at depth `deepest` are leaves; this does not change cuts at smaller depths. After
+  /// an exception the hierarchy has no nodes.
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
   /// Makes only the root of contour(). Its extent and its disc depend on a few points of the outline, which lie on the
   /// convex hull. `points` has to contain all of these, and may contain others. After an exception the hierarchy has
   /// no nodes.
-  /// Errors:  throws std::invalid_argument if there are no points or the extent is outside the domain of rounding.hpp.
+  /// Errors:  throws std::invalid_argument if there are no points or the extent is not within rounding::smallest_extent
+  ///          .. largest_extent (1e-6 to 1e6 m).
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
 
   /// Builds the hierarchy of projected_hierarchy() (paper_hierarchies.hpp), over triangles seen from above, without
@@ -55,8 +57,9 @@ class HierarchyBuilder {
   struct PendingNode {
     std::uint32_t begin, end;
     std::uint32_t* list;
-    std::uint32_t*
-        scratch;  ///< where a split writes its second side: in scratch_, for a second child over its own list
+    /// Where a split of the node writes its second side: in scratch_, or, if the node is a second child, over its own
+    /// `list`.
+    std::uint32_t* scratch;
     std::uint32_t parent;
     std::uint32_t below;  ///< the number of levels allowed below
     SplitMeasure measure;
@@ -99,7 +102,7 @@ class HierarchyBuilder {
   std::vector<std::uint32_t> order_, scratch_;
   std::vector<PendingNode> pending_;
   EvenHalves even_halves_;
-  std::array<Half, 256> halves_;  ///< one per halving; ends meet before 256 of them
+  std::array<Half, 256> halves_;  ///< one per halving; fewer than 256 make both ends equal
 
   std::uint32_t node_count_ = 0;
   std::size_t max_nodes_ = std::size_t{1} << 22;

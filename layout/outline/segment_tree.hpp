@@ -19,12 +19,13 @@ struct GridPlace {
 };
 
 /// Represents a binary tree over segments. It is for so many segments that SegmentBoxes, which has only two levels,
-/// would be slow. A node has a box around its segments and a slab around them, parallel to the longest of them:
-/// slabs of parallel segments close to each other are thin, whatever their direction.
+/// would be slow. A node has a box around its segments, and also a slab (the space between two parallel lines) around
+/// them, parallel to the longest segment. If the segments are parallel and close to each other, their slab is thin,
+/// whatever their direction.
 class SegmentTree {
  public:
-  /// Builds the tree over segments, which must stay unchanged until the last find(). Neighbouring segments should be
-  /// near each other.
+  /// Builds the tree over segments, which must stay unchanged until the last find(). The search is fast only if
+  /// consecutive segments of the array are near each other in the plane.
   void assign(std::span<const Segment> segments);
 
   /// Writes the numbers of all segments that come within a grid step of the line between two places, in ascending

@@ -24,16 +24,17 @@ struct Stretch {
 /// edges that may be part of the outline (OutlineCandidates).
 ///
 /// The unbounded face is always to the right. A walk leaves the current stretch where the first candidate sticks out to
-/// the right, or at the end of the stretch. Of all candidates at that point it takes the one that turns the farthest to
-/// the right, because that candidate bounds the same face. (From the direction straight back, that is the first
-/// candidate counter-clockwise.) A whisker (a part without area) is walked to its tip and back, and a vertex where
-/// pieces only touch is passed once for each piece.
+/// the right, or at the end of the stretch. Of all candidates at that point it takes the one that turns the farthest
+/// to the right. This candidate bounds the unbounded face, too: a ray that begins in the direction straight back and
+/// turns counter-clockwise sweeps that face, and this candidate is the first that it meets. A whisker (a part without
+/// area) is walked to its tip and back, and a vertex where pieces only touch is passed once for each piece.
 ///
 /// Every walk ends, because candidates cut each other into finitely many directed pieces, and the step from a piece to
 /// the next is a one-to-one map of these pieces. So some piece must come again, and the first to do so is the piece
 /// where the walk began.
 class OutlineWalk {
  public:
+  /// `loops` are the functions of one instruction set that compute many elements at once (segment_search.hpp).
   explicit OutlineWalk(const OutlineLoops& loops) : loops_(&loops) {}
 
   /// Sets the candidates of the following walks. They must not change until the last walk() has returned.

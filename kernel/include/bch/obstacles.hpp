@@ -52,9 +52,10 @@ class ObstacleSet {
  public:
   /// Copies the obstacles, and builds a tree of boxes and a grid of distances for them.
   /// Cost:    2 s for 10^6 segments, and 125 bytes for each. Runs in the caller's TBB arena.
-  /// Errors:  throws std::invalid_argument on sizes that differ and on offsets that descend or leave their
-  ///          array; also, naming it, on a point that is not finite or beyond the limits, or an obstacle
-  ///          whose bottom is above its top; std::length_error beyond 2^31 points, polylines or obstacles.
+  /// Errors:  throws std::invalid_argument on sizes that differ, on offsets that descend or leave their
+  ///          array, on a point that is not finite or beyond the limits, and on an obstacle whose bottom is
+  ///          above its top. The message names the point or obstacle. Throws std::length_error beyond 2^31
+  ///          points, polylines or obstacles.
   explicit ObstacleSet(const ObstacleArrays& obstacles);
   ObstacleSet(ObstacleSet&&) noexcept;
   ObstacleSet& operator=(ObstacleSet&&) noexcept;
@@ -125,16 +126,16 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
 /// That is the least gap between a sphere and an obstacle; with Overlap::zero it is 0 exactly where collide()
 /// answers 1. The direction leads from the agent to the obstacle. `spheres` holds the index of the sphere and
 /// that of the segment, which is 2^32 - 1 if the sphere is above, in or below an area. Points are relative to
-/// the agent's position. Of equal gaps, that of the first obstacle is chosen.
+/// the agent's position. If gaps are equal, the first obstacle is chosen.
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
 /// Measures how far each agent is from the nearest obstacle.
-/// That is the least gap between a disc of its cut, or with Leaves::segments its outline, and a segment. It
-/// is 0 where they overlap, a disc is inside an area, or a whole polyline is inside the agent's outline. The
-/// direction leads from the agent to the obstacle; `discs` has the agent's disc and the number of the
-/// segment; `points` are relative to the agent's position. "Obstacles" in kernel/accuracy.md has
-/// Overlap::deepest, ties and errors.
+/// That is the least gap between a disc of its cut and a segment of an obstacle. With Leaves::segments, its
+/// outline replaces the discs. The gap is 0 if the two overlap, if a disc is inside an area, or if a whole
+/// polyline is inside the agent's outline. The direction leads from the agent to the obstacle; `discs` has
+/// the agent's disc and the number of the segment; `points` are relative to the agent's position. "Obstacles"
+/// in kernel/accuracy.md has Overlap::deepest, ties and errors.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const ClearanceOptions& options = {});
 
@@ -142,16 +143,17 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// The move is perpendicular to one segment. One move takes an agent out of a convex area or off a single
 /// segment; for other obstacles, call again after the move. The depth is 0, and the direction (0, 0), where
 /// nothing is touched. "Obstacles" in kernel/accuracy.md has the rules.
-/// Cost:    n log n steps for n segments: those near the agent and, if its move crosses segments farther
-///          away, all up to the farthest of these.
+/// Cost:    n log n steps. n is the number of segments near the agent. If its move crosses segments farther
+///          away, n counts all segments up to the farthest of these.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
 
 /// Measures how far each agent has to move on the ground to be free of all neighbours and obstacles at once.
-/// Only this agent moves. `neighbours` are pairs of an agent and another one, in any order: all that the move
-/// may come near. `obstacles` may be null. If nothing else moves, collide() with each of them then answers 0.
-/// An agent that collides with nothing has a depth of 0. Directions and touches (Penetration::Touch) are as
-/// in nearest_free() of pairs. With obstacles, depths include 30 um per metre of the move and of the extent.
+/// Only this agent moves. `neighbours` has a pair for each agent and each other that its move may come near.
+/// Neither the order of the pairs nor that within a pair matters. `obstacles` may be null. If nothing else
+/// moves, collide() with each of them then answers 0. An agent that collides with nothing has a depth of 0.
+/// Directions and touches (Penetration::Touch) are as in nearest_free() of pairs. With obstacles, depths
+/// include 30 um per metre of the move and of the extent.
 /// Sizes:   one answer per agent; as many touches or none. Errors: also as nearest_free() of pairs.
 /// Memory:  allocates in every call.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> neighbours,
@@ -174,8 +176,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 /// "Motions" in kernel/accuracy.md says how early it may be. If a body stands still, only two cycles of its
 /// looping clip are searched.
 /// Sizes:   as many times as motions. Units: as first_contact() of pairs.
-/// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each near
-///          segment counts towards the limit of 1e8 steps.
+/// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. That query
+///          ends after 1e8 steps (motion.hpp); here each near segment counts as a step, too.
 void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
                    const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);
 

@@ -93,7 +93,7 @@ struct ClearanceOptions {
   /// are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;
-  /// Selects between what distances are measured: discs or, if both shapes have exact leaves, segments.
+  /// Selects what the distance is measured between: discs, or segments if both shapes have exact leaves.
   /// Segments give the distance of the outlines. Distances between discs are up to 3 cm less, and take about
   /// a quarter of the time. Overlap::deepest always measures discs.
   Leaves leaves = Leaves::discs;

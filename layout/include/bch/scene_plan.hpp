@@ -25,10 +25,10 @@ struct SceneRequirements {
   /// Whether to keep outlines, as in ShapeSetPlan.
   bool outlines = true;
   /// Returns the cut depth for agents at a distance from the viewer; empty: all_depths.
-  /// It should return all_depths if the distance does not matter.
+  /// The coarser of this depth and density_depth's is used, so return all_depths, the finest, where the
+  /// distance should not matter.
   std::function<std::uint32_t(double metres)> depth = {};
   /// Returns the cut depth for the density around an agent, for example depth_at_density().
-  /// If both functions give a depth, the coarser one is used.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
   /// Whether agents stand at different heights; see Agents::z.
   bool heights = false;

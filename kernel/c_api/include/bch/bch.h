@@ -198,7 +198,8 @@ typedef struct bch_character_arrays {
   const bch_influence* influences;
   const bch_clip* clips;
   size_t clip_count;
-  /** From the joints' frame to the world: metres, z up; NULL: they are the same. */
+  /** From the character's frame, that of joints without a parent, to the ground: metres, z up; NULL: they are
+   * the same. */
   const bch_affine3* to_ground;
 } bch_character_arrays;
 #define BCH_CHARACTER_ARRAYS_INIT                                                                       \
@@ -514,8 +515,8 @@ typedef struct bch_outline_options {
 #define BCH_OUTLINE_OPTIONS_INIT \
   { sizeof(bch_outline_options), 0, -INFINITY, INFINITY }
 /** Finds the outlines of a mesh in poses: the exact union of the triangles. Each pose has `vertices`
- * positions, one pose after the other; `triangles` has three indices of vertices per triangle. Poses are
- * shared among threads. */
+ * positions, one pose after the other; `triangles` has three indices of vertices per triangle. The work
+ * is divided among threads, pose by pose. */
 BCH_API bch_status bch_outlines_of_mesh(const bch_vec3* positions, size_t vertices, size_t poses,
                                         const uint32_t* triangles, size_t triangle_count,
                                         const bch_outline_options* options, const bch_work* work,
