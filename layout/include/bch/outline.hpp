@@ -54,8 +54,8 @@ std::string to_wkt(const Outline& outline);
 std::string to_geojson(const Outline& outline);
 
 /// Checks what hierarchies and shape sets expect of an outline, in linear time.
-/// There is at least one contour, offsets are in order, points are finite, the extent is 1e-6 to 1e6 m, and no
-/// contour is clockwise. A negative area is accepted if it is so small that rounding to the grid may have
+/// There is at least one contour, offsets are in order, points are finite, the extent is 1e-6 to 1e6 m, and
+/// no contour is clockwise. A negative area is accepted if it is so small that rounding to the grid may have
 /// caused it.
 /// Returns: the extent of the points.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.

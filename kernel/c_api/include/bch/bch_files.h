@@ -202,10 +202,8 @@ typedef struct bch_check_options {
   bch_trajectory* truth;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { \
-    sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, \
-        0, 0, 0, 0, NULL, 0, NULL, NULL \
-  }
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, \
+    NULL, 0, 0, 0, 0, 0, 0, NULL, 0, NULL, NULL }
 /** Finds who runs into whom in a recording: each row becomes a walking person, or the body that the row
  * names. The recording must not have been read from. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options,
