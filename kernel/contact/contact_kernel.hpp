@@ -28,15 +28,15 @@ namespace bch::detail {
 ///
 /// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. A cut is stored as a flat
 /// tree (layout/format/shape_set_view.hpp): its leaves are leaf blocks, each of eight consecutive discs, and the nodes
-/// above are blocks. Row leaf blocks are visited from left to right. Each row leaf block is compared with those column nodes
-/// that overlap the blocks above the row leaf block. So contacts are found in order, except among the eight rows of a
-/// leaf block; those are counted first and then written to their positions.
+/// above are blocks. Row leaf blocks are visited from left to right. Each row leaf block is compared with those column
+/// nodes that overlap the blocks above the row leaf block. So contacts are found in order, except among the eight rows
+/// of a leaf block; those are counted first and then written to their positions.
 ///
-/// Uniqueness. Leaf blocks may share discs with their neighbours, but no contact is reported twice. A row is tested in the
-/// last leaf block that contains it: each row leaf block but the last is used only up to the first row of the next leaf block. The
-/// last leaf block is used whole. It, too, has eight discs, so it may begin before the end of the leaf block to its left; the
-/// rows that both contain are tested in the last leaf block. A column is tested in the first visited leaf block that contains
-/// it.
+/// Uniqueness. Leaf blocks may share discs with their neighbours, but no contact is reported twice. A row is tested in
+/// the last leaf block that contains it: each row leaf block but the last is used only up to the first row of the next
+/// leaf block. The last leaf block is used whole. It, too, has eight discs, so it may begin before the end of the leaf
+/// block to its left; the rows that both contain are tested in the last leaf block. A column is tested in the first
+/// visited leaf block that contains it.
 ///
 /// Pruning and verification of hits are those of the kernel of collide().
 template <class Simd>
@@ -282,9 +282,9 @@ class ContactKernel {
     return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
-  /// Returns those hits of two leaf blocks whose ancestors all overlap and, with exact leaves, whose segments meet. Ancestors
-  /// need no test in two cases: single discs have none, and conservative nodes (is_conservative_) overlap wherever discs
-  /// below them do.
+  /// Returns those hits of two leaf blocks whose ancestors all overlap and, with exact leaves, whose segments meet.
+  /// Ancestors need no test in two cases: single discs have none, and conservative nodes (is_conservative_) overlap
+  /// wherever discs below them do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
     if (is_conservative_ && placed_.margin == 0) return hits;

@@ -20,8 +20,9 @@ struct PlacedTrees {
   float max_extent;  ///< of the two shapes together
 };
 
-/// Holds the indices of the ancestors of a cut disc, from its parent to the root, sixteen at a time. If there are fewer,
-/// the root fills the rest. (`Simd` gives each instruction set a function of its own, which the linker cannot merge.)
+/// Holds the indices of the ancestors of a cut disc, from its parent to the root, sixteen at a time. If there are
+/// fewer, the root fills the rest. (`Simd` gives each instruction set a function of its own, which the linker cannot
+/// merge.)
 template <class Simd>
 struct AncestorPath {
   static constexpr std::uint32_t length = 16;
@@ -85,9 +86,9 @@ class AncestorTest {
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
   /// The least depth, in units of the sum of extents, at which a point inside all discs proves overlaps. If a point
   /// lies that deep in every disc of both paths, each disc of A overlaps each disc of B by at least twice the depth.
-  /// Twice the depth covers the rounding. Three computations round: contains_point() for the disc of A, contains_point() for
-  /// the disc of B, and the test of the two discs. All three start from the same floats. Each rounds one difference of
-  /// centres, its square, and radii. All these lengths are at most the sum of extents.
+  /// Twice the depth covers the rounding. Three computations round: contains_point() for the disc of A,
+  /// contains_point() for the disc of B, and the test of the two discs. All three start from the same floats. Each
+  /// rounds one difference of centres, its square, and radii. All these lengths are at most the sum of extents.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *
@@ -117,8 +118,8 @@ class AncestorTest {
     }
   }
 
-  /// Decides most cases, with one test per node. The point divides the line between the centres of the cut discs in the
-  /// ratio of their radii, so that it lies in both.
+  /// Decides most cases, with one test per node. The point divides the line between the centres of the cut discs in
+  /// the ratio of their radii, so that it lies in both.
   Comparison compare_with_leaves() const noexcept {
     const auto b_in_a = trees_.b_in_a.template in_lanes<Float>();
     const float fraction = a_.radius / (a_.radius + b_.radius);
@@ -143,7 +144,8 @@ class AncestorTest {
     return {overlap == all, common_point == all};
   }
 
-  /// Tests all nodes of one path with all nodes of the other and with its cut disc, sixteen by sixteen up to the roots.
+  /// Tests all nodes of one path with all nodes of the other and with its cut disc, sixteen by sixteen up to the
+  /// roots.
   bool paths_overlap() noexcept {
     for (AncestorPath<Simd> a = ancestors_a_;; a.go_up(nodes_)) {
       load(a, discs_a_);

@@ -11,12 +11,12 @@
 namespace bch::detail {
 
 /// Decodes the name of a node of a flat tree (layout/format/shape_set_view.hpp): its index in ShapeSetView::nodes,
-/// with the top bit set for a leaf block. A leaf block is a leaf of eight consecutive discs of the cut (the discs of one level
-/// of detail). All other nodes are blocks. (`Simd` keeps instruction sets from sharing a function.)
+/// with the top bit set for a leaf block. A leaf block is a leaf of eight consecutive discs of the cut (the discs of
+/// one level of detail). All other nodes are blocks. (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct TreeNodes {
-  /// Returns a mask, all ones if the node is a leaf block. GCC would compile a condition to a branch, and no processor can
-  /// predict which nodes are leaf blocks.
+  /// Returns a mask, all ones if the node is a leaf block. GCC would compile a condition to a branch, and no processor
+  /// can predict which nodes are leaf blocks.
   static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_bit); }
 
   /// Returns the eight discs of a node. In a leaf block, an x, its y and its radius are `stride` floats apart

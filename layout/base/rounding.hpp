@@ -13,8 +13,8 @@
 /// Derives how much discs must be enlarged, so that a query in float never misses a hit of the exact outlines.
 /// tests/kernel/rounding_test.cpp measures every step and tests the whole against exact arithmetic.
 ///
-/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *extent* P is the
-/// largest distance of its points from its origin. A disc's *tight* radius r is the largest distance of its node's
+/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *extent* P is
+/// the largest distance of its points from its origin. A disc's *tight* radius r is the largest distance of its node's
 /// primitives from the disc's centre. The centre is taken as stored, in float, so it has no error. A *cut disc* is a
 /// disc of the cut that a query compares: of a node at the level's depth, or of a leaf above it. For shapes A and B at
 /// relative position d, S = P_A + P_B. a and b are a disc's centre of each, D the exact distance between the two.
@@ -145,10 +145,10 @@
 /// segments *meet* if one of two things holds:
 ///
 ///   - An end of one segment is within m of the other segment.
-///   - Each segment has its two ends on different sides of the other one's line, both at least 0.7 m (sure_share) away
-///     from this line. (The test multiplies m by |x| + |y| of a segment (x, y) in place of its length. That sum is up
-///     to sqrt(2) times the length. So an end that fails the test is less than sqrt(2) 0.7 m, and so less than m,
-///     away.)
+///   - Each segment has its two ends on different sides of the other one's line, both at least 0.7 m (sure_fraction)
+///     away from this line. (The test multiplies m by |x| + |y| of a segment (x, y) in place of its length. That sum
+///     is up to sqrt(2) times the length. So an end that fails the test is less than sqrt(2) 0.7 m, and so less than
+///     m, away.)
 ///
 /// No miss. Segments of outlines that meet are, after snapping and placing, at most (segment_place) and 1.5 of each
 /// grid step apart, which is less than m. So the segments meet in each of three cases:
@@ -171,7 +171,7 @@
 ///
 /// VI. The ends of the range.
 ///
-///     (underflow)  Radii are at least 25 u P >= 1e-12 m, because P >= smallest_reach. So (r_A + r_B)^2 >= 1e-24. A
+///     (underflow)  Radii are at least 25 u P >= 1e-12 m, because P >= smallest_extent. So (r_A + r_B)^2 >= 1e-24. A
 ///                  square below FLT_MIN loses less than 1e-37, whether it is flushed to zero or not. A product in
 ///                  (turn), (arm) or (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more.
 ///     (overflow)   |d| <= 2e9 sqrt(2) m by the limits below, and its square is at most 8e18.
@@ -185,9 +185,9 @@
 /// 2^-50 of the difference. The rounding of two sums of lengths up to 1e6 m is much smaller.
 ///
 /// VIII. Nodes that enclose the discs below them, as in bodies made of discs. Such nodes overlap wherever the discs
-/// below them do, if they enclose the discs with a margin, (conservative_margin). Let q = (query_error). Let a node of A have
-/// the centre C and the radius R_A, and enclose a disc of A with the centre c and the radius r_A: R_A >= |C - c| + r_A
-/// + margin_A.
+/// below them do, if they enclose the discs with a margin, (conservative_margin). Let q = (query_error). Let a node of
+/// A have the centre C and the radius R_A, and enclose a disc of A with the centre c and the radius r_A: R_A >= |C -
+/// c| + r_A + margin_A.
 ///
 ///   - The float test accepts this disc and a disc of B only if they have D <= r_A + r_B + q S.
 ///   - Then the node's centre is at most |C - c| + D <= R_A + r_B - margin_A + q S from the centre of the disc of B.
@@ -275,7 +275,8 @@ static_assert(terms::root_2 * sure_fraction < 1);
 static_assert(sure_fraction * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 
 /// The margin with which nodes enclose their discs, times the shape's extent. It suffices for pairs whose extents sum
-/// to at most conservative_ratio times the lesser one: twice (query_error) of both, and the rounding of the check itself.
+/// to at most conservative_ratio times the lesser one: twice (query_error) of both, and the rounding of the check
+/// itself.
 constexpr double conservative_ratio = 3;
 constexpr double conservative_margin = 47 * conservative_ratio * unit_roundoff;
 static_assert(conservative_margin >=

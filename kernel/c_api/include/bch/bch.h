@@ -193,7 +193,8 @@ typedef struct bch_character_arrays {
   const uint32_t* bone_joints;
   const bch_affine3* inverse_binds; /**< of bones; NULL: vertices are in the joints' frames */
   size_t bone_count;
-  /** Vertex v follows influences [v] to [v + 1]; NULL: all follow the first bone. */
+  /** Vertex v follows the influences from influence_offsets[v] to before influence_offsets[v + 1]; NULL: all
+   * follow the first bone. */
   const uint64_t* influence_offsets;
   const bch_influence* influences;
   const bch_clip* clips;
