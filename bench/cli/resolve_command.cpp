@@ -89,7 +89,8 @@ std::function<void()> add_resolve_command(CLI::App& program) {
   command.footer(
       R"(Bodies are sets of spheres bound to the bones, tested in 3D. A sweep finds all pairs that overlap, and moves all
 people once. Prints AGENTS.csv with new x, y and heading, and to standard error the number of sweeps, the mean and
-largest shift and turn, and how many pairs and people at walls remain if there is not enough room (the exit code is still 0).
+largest shift and turn, and how many pairs and people at walls remain if there is not enough room (the exit code is
+still 0).
 AGENTS.csv is that of bch query, with one more column:
   mobility       0 (does not move) to 1: of two people moved apart, one with half the mobility moves half as far [1]
 Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv)");
