@@ -85,7 +85,7 @@ assert.equal(squares.length, 1);
 assert.deepEqual([...bch.collide(squares, { shape: [0, 0], x: [0, 1.9], y: [0, 0], heading: [0, 0] }, [0, 1])], [1]);
 const corridor = new bch.Crowd({ period: [10, 10] });
 assert.equal(corridor.collisions(squares, { shape: [0, 0], x: [0.5, 9.5], y: [0, 0], heading: [0, 0] }).length, 1);
-assert.throws(() => bch.collide(people, agents, [0, n]), { message: `pair 0: agent ${n} of ${n}` });
+assert.throws(() => bch.collide(people, agents, [0, n]), { message: `pair 0: expected one of ${n} agents, found ${n}` });
 assert.throws(() => crowd.collisions(people, { ...agents, y: [1] }), RangeError);
 assert.throws(() => crowd.collisions(people, own, { leaves: "disks" }), { message: "leaves: expected discs or segments, found disks" });
 assert.throws(() => live.poseByClips([0], [0]), RangeError);
