@@ -6,7 +6,10 @@
 namespace bch::detail {
 namespace {
 
-struct Avx512Lanes : Lanes<xsimd::avx512f, Avx512Lanes> {};
+struct EightLanes : Lanes<xsimd::avx2, EightLanes> {};
+struct Avx512Lanes : Lanes<xsimd::avx512f, Avx512Lanes> {
+  using OfLeaves = EightLanes;
+};
 
 }  // namespace
 

@@ -35,6 +35,21 @@ struct Guarded<Simd, kernel> {
   }
 };
 
+/// Selects the lanes of kernels that go through leaves of eight: `Simd`, or what it names instead because it has more.
+template <class Simd>
+struct LeafLanes {
+  using Type = Simd;
+};
+template <class Simd>
+requires requires {
+  typename Simd::OfLeaves;
+}
+struct LeafLanes<Simd> {
+  using Type = typename Simd::OfLeaves;
+};
+template <class Simd>
+using FreeKernelFor = FreeKernel<typename LeafLanes<Simd>::Type>;
+
 /// Holds all kernels, compiled for the lanes of one instruction set. `Simd` has to be in an anonymous namespace, so that
 /// instruction sets share no function.
 template <class Simd>
@@ -50,10 +65,10 @@ constexpr Kernels kernel_table{
     .append_contacts = Guarded<Simd, &ContactKernel<Simd>::append>::call,
     .fill_contacts = Guarded<Simd, &ContactKernel<Simd>::fill>::call,
     .extents = Guarded<Simd, &ExtentKernel<Simd>::run>::call,
-    .free_place = Guarded<Simd, &FreeKernel<Simd>::place>::call,
-    .free_bound = Guarded<Simd, &FreeKernel<Simd>::bound>::call,
-    .free_turn = Guarded<Simd, &FreeKernel<Simd>::turn>::call,
-    .free_next = Guarded<Simd, &FreeKernel<Simd>::next>::call,
+    .free_place = Guarded<Simd, &FreeKernelFor<Simd>::place>::call,
+    .free_bound = Guarded<Simd, &FreeKernelFor<Simd>::bound>::call,
+    .free_turn = Guarded<Simd, &FreeKernelFor<Simd>::turn>::call,
+    .free_next = Guarded<Simd, &FreeKernelFor<Simd>::next>::call,
     .clearance = Guarded<Simd, &ClearanceKernel<Simd>::run>::call,
     .time_of_impact = Guarded<Simd, &TimeOfImpactKernel<Simd>::run>::call,
     .overlapping_boxes = Guarded<Simd, &BoxQuery<Simd>::run>::call,

@@ -31,13 +31,13 @@ void take_record(const float* record, const Placed& placed, FreeBody& body) {
 }
 
 /// Begins a body whose leaves are made of consecutive elements, in registers: as many leaves as 16 bits count.
-inline void begin_leaves(std::size_t elements, FreeBody& body, std::uint32_t width = 8) {
-  body.begin(elements, std::max(8U, width) * static_cast<std::uint32_t>(1 + elements / 400'000));
+inline void begin_leaves(std::size_t elements, FreeBody& body) {
+  body.begin(elements, 8 * static_cast<std::uint32_t>(1 + elements / 400'000));
 }
 
 /// Takes discs of A's frame.
-inline void take_discs(const Kernels& kernels, const CutDiscs& discs, const Transform& to_a, FreeBody& body) {
-  begin_leaves(discs.count, body, kernels.width);
+inline void take_discs(const CutDiscs& discs, const Transform& to_a, FreeBody& body) {
+  begin_leaves(discs.count, body);
   for (std::uint32_t i = 0; i < discs.count; ++i) {
     const auto [x, y] = to_a.apply(discs.x[i], discs.y[i]);
     body.add({x, y, 0, discs.radius[i]});
@@ -51,7 +51,7 @@ inline void take_segments(const Kernels& kernels, const ShapeSetView& shapes, st
   const auto count = [&](std::uint32_t k) { return shapes.contours[k].end - shapes.contours[k].begin; };
   std::size_t segments = 0;
   for (std::uint32_t k = first; k < last; ++k) segments += count(k);
-  begin_leaves(segments, body, kernels.width);
+  begin_leaves(segments, body);
   for (std::uint32_t k = first; k < last; ++k)
     body.add_segments(kernels, shapes.points + shapes.contours[k].begin, count(k), to_a);
 }

@@ -116,8 +116,8 @@ void OutlineSource::begin(FreePair& search, Pair pair) const {
     take_segments(kernels, view_, agents_.shape[a], unmoved_ground, search.a);
     take_segments(kernels, view_, agents_.shape[b], b_in_a, search.b);
   } else {
-    take_discs(kernels, of_a.discs, unmoved_ground, search.a);
-    take_discs(kernels, of_b.discs, b_in_a, search.b);
+    take_discs(of_a.discs, unmoved_ground, search.a);
+    take_discs(of_b.discs, b_in_a, search.b);
   }
   if (!by_segments)
     return search.begin(implementation_, FreeKind::spheres, sphere_slack * max_extents, max_extents);
@@ -132,7 +132,7 @@ void OutlineSource::begin_walls(FreePair& search, std::uint32_t agent, double sl
   if (by_segments)
     take_segments(*implementation_.kernels, view_, agents_.shape[agent], unmoved_ground, search.a);
   else
-    take_discs(*implementation_.kernels, of_agent.discs, unmoved_ground, search.a);
+    take_discs(of_agent.discs, unmoved_ground, search.a);
   if (!by_segments)
     return search.begin(implementation_, FreeKind::walls, slack + segment_slack * max_extents, max_extents);
   const double margin = view_.segment_margin[agents_.shape[agent]];
