@@ -98,6 +98,7 @@ void TruthCollisions::find(std::span<const Person> predicted, std::span<const Pe
   std::vector<Person> all(predicted.begin(), predicted.end());
   all.insert(all.end(), others.begin(), others.end());
   std::vector<WalkerPose> poses;
+  poses.reserve(all.size());
   for (const Person& person : all) poses.push_back(person.pose);
   if (bodies_) {
     bodies_->prepare(poses);
