@@ -204,7 +204,7 @@ class Character:
         """
         array, factors = _as_poses(poses), converted(weights, f4, "weights")
         if factors.shape != (len(array),):
-            raise ArrayError(f"weights has shape {shares.shape}, and there are {len(array)} poses")
+            raise ArrayError(f"weights has shape {factors.shape}, and there are {len(array)} poses")
         rows = np.empty((self.joints, 3, 4), f8)
         check(lib.bch_character_blend(self._pointer, address(array), address(factors), len(array), address(rows)))
         return rows
