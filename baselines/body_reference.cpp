@@ -87,10 +87,10 @@ float BodyReference::time_of_impact(const Agents& agents, Pair pair, double x, d
       const double square = (px * px + py * py) + pz * pz, speed = (vx * vx + vy * vy) + vz * vz;
       const double towards = (px * vx + py * vy) + pz * vz;
       const double cx = py * vz - pz * vy, cy = pz * vx - px * vz, cz = px * vy - py * vx;
-      const double max_extent = static_cast<double>(a.radius + b.radius) + 0x1p-19 * std::sqrt(square);
-      const double inner = max_extent * max_extent * speed - ((cx * cx + cy * cy) + cz * cz);
+      const double touching = static_cast<double>(a.radius + b.radius) + 0x1p-19 * std::sqrt(square);
+      const double inner = touching * touching * speed - ((cx * cx + cy * cy) + cz * cz);
       if (towards <= 0 || inner < 0) continue;
-      const double gap = square - max_extent * max_extent;
+      const double gap = square - touching * touching;
       const double time = gap <= 0 ? 0 : gap / (towards + std::sqrt(inner)) * (1 - 0x1p-22);
       if (time <= 1) least = std::min(least, time);
     }

@@ -98,7 +98,7 @@ class Fit {
     return up;
   }
   bool adjacent(const Group& a, const Group& b) const {
-    const auto max_extents = [&](const Group& from, const Group& to) {
+    const auto meets = [&](const Group& from, const Group& to) {
       return std::any_of(from.joints.begin(), from.joints.end(), [&](std::uint32_t joint) {
         const std::int32_t up = parent(joint);
         return std::binary_search(to.joints.begin(), to.joints.end(), joint) ||
@@ -106,7 +106,7 @@ class Fit {
                 std::binary_search(to.joints.begin(), to.joints.end(), static_cast<std::uint32_t>(up)));
       });
     };
-    return max_extents(a, b) || max_extents(b, a);
+    return meets(a, b) || meets(b, a);
   }
 
   static std::vector<std::uint32_t> united(const std::vector<std::uint32_t>& a,

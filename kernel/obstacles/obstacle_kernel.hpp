@@ -179,8 +179,8 @@ class ObstacleKernel {
   /// Searches the tree, the disc with the least bound first.
   void search(const LocalSegment& segment, double stop_below, ObstacleGap& best) noexcept {
     double limit = limit_of(segment, best);
-    const double max_extent = double{tree_.outer_radius} + limit;
-    if (max_extent < 0 || square_from_root(segment) > max_extent * max_extent) return;
+    const double within = double{tree_.outer_radius} + limit;
+    if (within < 0 || square_from_root(segment) > within * within) return;
     const auto visit = [&](std::uint32_t node, OpenBlock& block) {
       if (node < leaf_bit) return open(segment, limit, block), false;
       if (take(segment, node, limit, best)) limit = limit_of(segment, best);
@@ -206,9 +206,9 @@ class ObstacleKernel {
     std::uint32_t bits = 0;
     for (unsigned k = 0; k < block_width; k += Simd::doubles) {
       const Double each = square_distance(segment, Simd::wide(discs.x + k), Simd::wide(discs.y() + k)),
-                   max_extent = Simd::wide(discs.radius() + k) + Double(limit + segment.slack);
+                   within = Simd::wide(discs.radius() + k) + Double(limit + segment.slack);
       Simd::store(square + k, each);
-      bits |= Simd::bits((each <= max_extent * max_extent) & (Double(0.0) <= max_extent)) << k;
+      bits |= Simd::bits((each <= within * within) & (Double(0.0) <= within)) << k;
     }
     return bits;
   }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "kernel/broad_phase/broad_phase.hpp"
-
 #include "kernel/recordings/check.hpp"
 #include "kernel/recordings/frame_block.hpp"
 #include "kernel/recordings/frame_run.hpp"

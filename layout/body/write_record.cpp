@@ -146,10 +146,10 @@ void write_supports(const SphereSlots& spheres, std::uint32_t slots, std::uint32
     alignas(16) float clipped[group];
     const Float root = xsimd::sqrt(xsimd::max(square, zero));
     Simd::store(clipped, root + error * root);
-    const std::uint32_t max_extents = Simd::bits(beyond <= s.radius);
+    const std::uint32_t in_band = Simd::bits(beyond <= s.radius);
     for (std::uint32_t k = 0; k < group; ++k) {
       x[count] = spheres.x[i + k], y[count] = spheres.y[i + k], radius[count] = clipped[k];
-      count += max_extents >> k & 1;
+      count += in_band >> k & 1;
     }
   }
   if (count == 0) {

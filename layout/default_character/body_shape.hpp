@@ -42,7 +42,7 @@ struct FootSection {
 /// Represents a bulge of the skin: vertices near `centre` move along `by`, falling off as a Gaussian.
 struct Bulge {
   Eigen::Vector3d centre, by;  ///< on the left side; the right side mirrors it
-  Eigen::Vector3d max_extent;  ///< standard deviations along x, y, z
+  Eigen::Vector3d spread;      ///< standard deviations along x, y, z
 };
 
 /// Measures of a person. All that differs between two parametric bodies is in here.

@@ -67,51 +67,49 @@ struct Arms {
 
 /// Both hands move before the belly; the gestures grow and fade.
 Arms talking_arms(const Manner& manner, double t) {
-  const Reach max_extent{manner};
+  const Reach reach{manner};
   const double g = manner.gesture;
   const double vigour = 0.55 + 0.45 * wander(t, 6.5, 0.7);
   const auto hand = [&](double offset) {
-    return max_extent(0.24 + 0.10 * g * vigour * wander(t, 1.9, offset),
-                      manner.joints[joint_index(BodyJoint::shoulder)].y() +
-                          g * (0.05 + 0.10 * vigour * wander(t, 2.7, offset + 1)),
-                      0.64 + 0.05 * g * vigour * wander(t, 1.5, offset + 2), {-0.5, 0.9, -0.6}, -0.6, -0.1,
-                      0.25);
+    return reach(0.24 + 0.10 * g * vigour * wander(t, 1.9, offset),
+                 manner.joints[joint_index(BodyJoint::shoulder)].y() +
+                     g * (0.05 + 0.10 * vigour * wander(t, 2.7, offset + 1)),
+                 0.64 + 0.05 * g * vigour * wander(t, 1.5, offset + 2), {-0.5, 0.9, -0.6}, -0.6, -0.1, 0.25);
   };
   const double rest = ease(0.1, 0.5, wander(t, 9, 2));
   return {hand(0), blend(hand(2.6), hanging_arm(manner), rest)};
 }
 
 Arms arms(const Manner& manner, Idle kind, double t) {
-  const Reach max_extent{manner};
+  const Reach reach{manner};
   const ArmPose hang = hanging_arm(manner);
   const double g = manner.gesture;
   const double s = manner.stature / 1.88;
   const double outwards = manner.joints[joint_index(BodyJoint::shoulder)].y();
   switch (kind) {
     case Idle::akimbo: {
-      const ArmPose on_hip = max_extent(0.02, outwards + 0.045, 0.590, {-0.45, 1, 0.1}, 0.9, -0.7, 0.5);
+      const ArmPose on_hip = reach(0.02, outwards + 0.045, 0.590, {-0.45, 1, 0.1}, 0.9, -0.7, 0.5);
       const double drop = ease(7, 8.2, t) - ease(11, 12.2, t);
       return {on_hip, blend(on_hip, hang, drop)};
     }
     case Idle::arms_crossed:
-      return {max_extent(0.175 * s, -0.055 * s, 0.685, {0.0, 1, -0.8}, 0.9, 0.25, 0.4),
-              max_extent(0.225 * s, -0.035 * s, 0.712, {0.1, 1, -0.8}, 0.4, 0.25, 0.4)};
+      return {reach(0.175 * s, -0.055 * s, 0.685, {0.0, 1, -0.8}, 0.9, 0.25, 0.4),
+              reach(0.225 * s, -0.035 * s, 0.712, {0.1, 1, -0.8}, 0.4, 0.25, 0.4)};
     case Idle::phone:
-      return {hang, blend(hang, max_extent(0.09 * s, 0.145 * s, 0.868, {0.8, 0.7, -1}, 0.4, -0.6, 0.6),
+      return {hang, blend(hang, reach(0.09 * s, 0.145 * s, 0.868, {0.8, 0.7, -1}, 0.4, -0.6, 0.6),
                           ease(0.8, 2.0, t) - ease(12.2, 13.4, t))};
     case Idle::wave: {
       const double up = ease(0.6, 1.6, t) - ease(5.6, 6.6, t) + ease(8, 9, t) - ease(11, 12, t);
       const double swing = 0.09 * std::sin(2 * pi * 1.4 * t);
       return {
           hang,
-          blend(hang, max_extent(0.14, outwards + 0.20 * g + swing, 0.935, {-0.2, 0.6, -1}, 0.9, -0.2, 0.05),
-                up)};
+          blend(hang, reach(0.14, outwards + 0.20 * g + swing, 0.935, {-0.2, 0.6, -1}, 0.9, -0.2, 0.05), up)};
     }
     case Idle::talk:
       return talking_arms(manner, t);
     case Idle::think:
-      return {max_extent(0.215 * s, -0.06 * s, 0.640, {-0.1, 1, -0.8}, 0.2, 0.1, 0.4),
-              max_extent(0.165 * s, 0.070 * s, 0.808, {0.35, 0.25, -1}, 0.9, 0.0, 0.9)};
+      return {reach(0.215 * s, -0.06 * s, 0.640, {-0.1, 1, -0.8}, 0.2, 0.1, 0.4),
+              reach(0.165 * s, 0.070 * s, 0.808, {0.35, 0.25, -1}, 0.9, 0.0, 0.9)};
     case Idle::shift:
     case Idle::search_around:
       break;

@@ -242,7 +242,7 @@ void bulge(BodySurface& surface, const std::vector<Bulge>& bulges) {
   for (Vector3d& p : surface.positions) {
     Vector3d moved = p;
     for (const Bulge& b : bulges) {
-      const double distance = (p - b.centre).cwiseQuotient(b.max_extent).squaredNorm();
+      const double distance = (p - b.centre).cwiseQuotient(b.spread).squaredNorm();
       moved += std::exp(-0.5 * distance) * b.by;
     }
     if (p.y() == 0) moved.y() = 0;

@@ -25,7 +25,7 @@ struct Manner {
 
 struct Gait {
   double strides_per_second;
-  double max_extent;     ///< scales hip and arms against natural walking
+  double amplitude;      ///< scales hip and arms against natural walking
   double turn_rate = 0;  ///< of the heading, radians a second, counter-clockwise
 };
 

@@ -38,13 +38,13 @@ double at(const Curve& curve, double phase) {
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-LegAngles leg_angles(double phase, double max_extent) {
+LegAngles leg_angles(double phase, double amplitude) {
   const double hip_mean = 5.5;
   // Knee and ankle keep their excursion in a short step: the foot has to clear the ground all the same.
-  const double part = std::max(1.0, 0.5 + 0.5 * max_extent);
+  const double part = std::max(1.0, 0.5 + 0.5 * amplitude);
   LegAngles angles{};
-  angles.hip = (hip_mean + max_extent * (at(hip_flexion, phase) - hip_mean)) * degree;
-  angles.knee = (part + 0.35 * std::max(0.0, 1 - max_extent)) * at(knee_flexion, phase) * degree;
+  angles.hip = (hip_mean + amplitude * (at(hip_flexion, phase) - hip_mean)) * degree;
+  angles.knee = (part + 0.35 * std::max(0.0, 1 - amplitude)) * at(knee_flexion, phase) * degree;
   angles.ankle = part * at(dorsiflexion, phase) * degree;
   // Between loading and heel rise the sole lies flat, which tables of three joints, each rounded and averaged
   // by itself, give only to some degrees.
@@ -66,14 +66,14 @@ Motion walking(const Manner& manner, const Gait& gait) {
   return [manner, gait](double seconds) {
     const double phase = seconds * gait.strides_per_second * manner.cadence;
     const double beat = 2 * pi * phase;
-    const double max_extent = gait.max_extent * manner.stride;
+    const double amplitude = gait.amplitude * manner.stride;
     const Eigen::Quaterniond heading = about_z(gait.turn_rate * seconds);
     // The body leans into a curve as far as its speed asks for.
-    const double lean = -0.25 * gait.turn_rate * max_extent;
+    const double lean = -0.25 * gait.turn_rate * amplitude;
 
     HumanPose pose;
-    const double rotation = -4 * degree * max_extent * std::cos(beat);
-    const double list = 2.5 * degree * max_extent * std::sin(beat - 0.15);
+    const double rotation = -4 * degree * amplitude * std::cos(beat);
+    const double list = 2.5 * degree * amplitude * std::sin(beat - 0.15);
     pose.pelvis.z() = manner.joints[0].z();
     pose[BodyJoint::pelvis] = heading * about_z(rotation) * about_x(list + 0.15 * lean) * about_y(3 * degree);
     const Eigen::Quaterniond thorax =
@@ -88,12 +88,12 @@ Motion walking(const Manner& manner, const Gait& gait) {
 
     for (const Side side : {Side::left, Side::right}) {
       const double own = phase + (side == Side::left ? 0 : 0.5);
-      LegAngles angles = leg_angles(own, max_extent);
+      LegAngles angles = leg_angles(own, amplitude);
       // The feet come closer to the line of walking than the hips are.
       angles.abduction = -1.8 * degree;
       set_leg(pose, side, angles, heading * about_z((side == Side::left ? 1 : -1) * 4 * degree));
       const double swing = std::cos(2 * pi * own);
-      const double excursion = manner.arm_swing * max_extent;
+      const double excursion = manner.arm_swing * amplitude;
       set_arm(
           pose, manner.joints, side,
           swinging_arm((-4 - 18 * excursion * swing) * degree,

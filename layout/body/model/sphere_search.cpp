@@ -127,8 +127,8 @@ class SphereSearch {
       const Ball& ball = fit_.balls[q];
       if (q == but || ball.pieces.empty()) continue;
       const float x = at[0] - ball.x[0], y = at[1] - ball.y[0], z = at[2] - ball.z[0];
-      const float max_extent = ball.radius[0] + 0.1f;
-      if (best.sphere != none && x * x + y * y + z * z > max_extent * max_extent) continue;
+      const float range = ball.radius[0] + 0.1f;
+      if (best.sphere != none && x * x + y * y + z * z > range * range) continue;
       const float now = price(q, fit_.corners(piece));
       if (now < best.price) best = {q, now};
       if (now <= 0) break;
