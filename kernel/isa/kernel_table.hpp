@@ -35,7 +35,8 @@ struct Guarded<Simd, kernel> {
   }
 };
 
-/// Selects the lanes of kernels that go through leaves of eight: `Simd`, or what it names instead because it has more.
+/// Selects the lanes of kernels that go through leaves of eight: `Simd`, or narrower ones that it names, because registers
+/// that are half empty take longer.
 template <class Simd>
 struct LeafLanes {
   using Type = Simd;

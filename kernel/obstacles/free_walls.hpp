@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "kernel/obstacles/body_query.hpp"
 #include "kernel/penetration/free_bodies.hpp"
@@ -25,24 +26,28 @@ class ObstacleWalls {
   ObstacleWalls(const Source& source, const Make& make) : source_(source), query_(make(copy_)) {}
 
   void begin(std::uint32_t agent) {
-    agent_ = agent, limit_ = -1;
+    agent_ = agent;
     moved_.clear();
     moved_.add(source_.agents(), agent);
     copy_ = moved_.agents();
+    take(source_.max_extent(agent));
+    has_grown_ = false;
   }
+  /// Takes more segments unless it knows all that a way to this place may come to.
+  void know(float place) {
+    if (double{place} > limit_ && limit_ <= farthest) take(2 * limit_);
+  }
+  /// Returns whether it has taken more segments since the last call.
+  bool has_grown() { return std::exchange(has_grown_, false); }
   void turn(float x, float y) { x_ = x, y_ = y, is_turned_ = false; }
-  float next(float place) {
-    if (double{place} > limit_) take(std::max(2 * double{place}, source_.max_extent(agent_)));
-    return is_empty_ ? place : turned().next(place);
-  }
+  float next(float place) { return is_empty_ ? place : turned().next(place); }
   float after_gap(float place) {
-    constexpr double all = 2 * farthest_gap;
     for (;;) {
       const float after = is_empty_ ? place : turned().after_gap(place);
-      if (after > place && (double{after} <= limit_ || limit_ > all)) return after;
+      if (after > place && (double{after} <= limit_ || limit_ > farthest)) return after;
       // Every area ends somewhere.
-      if (limit_ > all) return std::numeric_limits<float>::infinity();
-      take(2 * std::max(double{after}, limit_));
+      if (limit_ > farthest) return std::numeric_limits<float>::infinity();
+      take(2 * limit_);
     }
   }
   FreeTouch touch(float place) { return is_empty_ ? FreeTouch{} : turned().touch(place); }
@@ -54,6 +59,8 @@ class ObstacleWalls {
   }
 
  private:
+  static constexpr double farthest = 2 * farthest_gap;  ///< metres: nothing is beyond
+
   FreePair& turned() {
     if (!is_turned_) search_.turn(x_, y_);
     is_turned_ = true;
@@ -77,15 +84,15 @@ class ObstacleWalls {
   FreePair search_;
   std::uint32_t agent_ = 0;
   float x_ = 1, y_ = 0;
-  bool is_turned_ = false, is_empty_ = true;
-  double limit_ = -1;  ///< metres, up to which search_ knows all
+  bool is_turned_ = false, is_empty_ = true, has_grown_ = false;
+  double limit_ = 0;  ///< metres, up to which search_ knows all: the agent's extent times a power of two
 };
 
 template <class Query, class Source>
 void ObstacleWalls<Query, Source>::take(double limit) {
   const Agents& agents = source_.agents();
   prepare(agents.x[agent_], agents.y[agent_], limit);
-  limit_ = limit, is_empty_ = true, is_turned_ = false;
+  limit_ = limit, has_grown_ = true, is_empty_ = true, is_turned_ = false;
   const PlacedBody* const body = query_.body(0);
   if (body == nullptr) return;
   query_.near_body(*body);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,8 @@ class MovedAgents {
 /// Is what a search knows of walls where there are none.
 struct NoWalls {
   static void begin(std::uint32_t) {}
+  static void know(float) {}
+  static bool has_grown() { return false; }
   static void turn(float, float) {}
   static float next(float place) { return place; }
   static float after_gap(float place) { return place; }
@@ -93,6 +96,7 @@ class FreeWaySearch {
 
   const Agents& agents() const { return source_.agents(); }
   void begin(std::uint32_t agent, std::span<const std::uint32_t> neighbours);
+  std::optional<FreeWay> follow(const Axes& axes, bool is_open);
   bool is_near(const Neighbour& neighbour, float place) const {
     const float m = neighbour.x * x_ + neighbour.y * y_ - place, w = neighbour.x * y_ - neighbour.y * x_;
     return m * m + w * w <= neighbour.max_extents * neighbour.max_extents;
@@ -121,12 +125,21 @@ class FreeWaySearch {
   std::vector<std::uint8_t> hits_;
 };
 
-/// The way that may be the shortest is followed by a step, until it has ended.
+/// What is known of walls shows in the last digits, because margins grow with the segments that are taken. How ways become longer depends on
+/// the instruction set, up to where they end. So all ways begin anew when more segments are taken, and the answer is that of one set of them.
+/// More are taken only where no shorter way is free, or where a way leaves an area, which is the same on all instruction sets.
 template <class Source, class Walls>
 FreeWay FreeWaySearch<Source, Walls>::find(std::uint32_t agent, std::span<const std::uint32_t> neighbours,
                                            const Axes& axes, bool is_open) {
   begin(agent, neighbours);
-  const SpaceFrame frame(agents(), agent, agent);
+  for (;;)
+    if (const std::optional<FreeWay> way = follow(axes, is_open)) return *way;
+}
+
+/// The way that may be the shortest is followed by a step, until it has ended. Returns: nothing if more of walls is known since.
+template <class Source, class Walls>
+std::optional<FreeWay> FreeWaySearch<Source, Walls>::follow(const Axes& axes, bool is_open) {
+  const SpaceFrame frame(agents(), agent_, agent_);
   std::array<FreeWay, max_directions> ways;
   std::array<float, max_directions> places{};
   const std::uint32_t count = 2 * axes.count;
@@ -145,12 +158,14 @@ FreeWay FreeWaySearch<Source, Walls>::find(std::uint32_t agent, std::span<const 
     if (least != turned) turn(way.to_x, way.to_y);
     turned = least;
     if (way.is_end) return way;
+    walls_.know(way.place);
     const float next = this->next(way.place);
     if (next == way.place) {
       way.is_end = is_open;
       if (!is_open) finish(way);
     }
     way.place = places[least] = std::max(way.place, next);
+    if (walls_.has_grown()) return {};
   }
 }
 
